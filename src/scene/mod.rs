@@ -1,0 +1,42 @@
+//! What is drawn: plain `f64` data, validated, without a word of Vulkan.
+//!
+//! World frame: right-handed, y up, as the course work uses it. Lengths are in world units, angles in degrees
+//! (the unit is in the field's name), colours and intensities are linear RGB.
+
+mod camera;
+mod light;
+mod material;
+mod primitive;
+
+pub use camera::{Camera, Projection};
+pub use light::Light;
+pub use material::Material;
+pub use primitive::{Primitive, Solid, SolidKind};
+
+use glam::DVec3;
+
+/// Everything a picture depends on but its size.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    pub camera: Camera,
+    /// Linear RGB seen where a primary ray meets nothing.
+    pub background: DVec3,
+    /// Largest number of generations of a ray: 1 is the primary ray alone.
+    pub max_depth: u32,
+    pub lights: Vec<Light>,
+    /// In file order; a tie between two primitives of one kind goes to the earlier one.
+    pub primitives: Vec<Primitive>,
+}
+
+impl Default for Scene {
+    /// The course's start state: its camera, its one light, no primitives.
+    fn default() -> Self {
+        Self {
+            camera: Camera::default(),
+            background: DVec3::new(0.1, 0.2, 0.3),
+            max_depth: 20,
+            lights: vec![Light::default()],
+            primitives: Vec::new(),
+        }
+    }
+}

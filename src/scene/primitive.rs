@@ -1,0 +1,97 @@
+use glam::DVec3;
+
+use super::Material;
+
+/// A solid with its material.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Primitive {
+    /// For people only; need not be unique.
+    pub name: Option<String>,
+    pub solid: Solid,
+    pub material: Material,
+}
+
+/// Which of the four solids, without its sizes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SolidKind {
+    Sphere,
+    Box,
+    Cylinder,
+    Cone,
+}
+
+impl SolidKind {
+    /// In the order of the course kernel's search, which decides ties.
+    pub const ALL: [SolidKind; 4] = [Self::Sphere, Self::Box, Self::Cylinder, Self::Cone];
+
+    /// The word of the scene file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sphere => "sphere",
+            Self::Box => "box",
+            Self::Cylinder => "cylinder",
+            Self::Cone => "cone",
+        }
+    }
+}
+
+/// Shape and pose in the world frame.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Solid {
+    Sphere {
+        center: DVec3,
+        radius: f64,
+    },
+    Box {
+        center: DVec3,
+        half_size: DVec3,
+        /// (a, b, c) of local→world = Rx(−a)·Ry(−b)·Rz(−c), the course's rule.
+        rotation_degrees: DVec3,
+    },
+    /// Capped at both ends.
+    Cylinder {
+        /// Centres of the two bases.
+        ends: [DVec3; 2],
+        radius: f64,
+    },
+    /// One nappe from the apex to the base disk at `height` along `axis`.
+    Cone {
+        apex: DVec3,
+        /// From the apex towards the base; unit length.
+        axis: DVec3,
+        height: f64,
+        /// Angle between axis and side, in (0, 90).
+        half_angle_degrees: f64,
+    },
+}
+
+impl Solid {
+    pub fn kind(&self) -> SolidKind {
+        match self {
+            Self::Sphere { .. } => SolidKind::Sphere,
+            Self::Box { .. } => SolidKind::Box,
+            Self::Cylinder { .. } => SolidKind::Cylinder,
+            Self::Cone { .. } => SolidKind::Cone,
+        }
+    }
+
+    /// What the course's «Добавить» button makes, at the origin.
+    pub fn course_default(kind: SolidKind) -> Self {
+        match kind {
+            SolidKind::Sphere => Self::Sphere { center: DVec3::ZERO, radius: 1.0 },
+            SolidKind::Box => Self::Box { center: DVec3::ZERO, half_size: DVec3::ONE, rotation_degrees: DVec3::ZERO },
+            SolidKind::Cylinder => {
+                Self::Cylinder { ends: [DVec3::new(1.0, 0.0, 1.0), DVec3::new(-1.0, 0.0, -1.0)], radius: 1.0 }
+            }
+            SolidKind::Cone => Self::Cone {
+                apex: DVec3::ZERO,
+                axis: DVec3::NEG_Y,
+                height: 1.0,
+                half_angle_degrees: COURSE_CONE_HALF_ANGLE_DEGREES,
+            },
+        }
+    }
+}
+
+/// acos(0.9): the course's cone stores the cosine 0.9.
+const COURSE_CONE_HALF_ANGLE_DEGREES: f64 = 25.841_932_763_167_124;
