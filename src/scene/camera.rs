@@ -11,6 +11,18 @@ pub enum Projection {
     Course,
 }
 
+impl Projection {
+    pub const ALL: [Projection; 2] = [Self::Centered, Self::Course];
+
+    /// The word of the scene file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Centered => "centered",
+            Self::Course => "course",
+        }
+    }
+}
+
 /// A pinhole camera in the world frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {

@@ -4,14 +4,20 @@
 //! (the unit is in the field's name), colours and intensities are linear RGB.
 
 mod camera;
+mod error;
+mod file;
 mod light;
 mod material;
 mod primitive;
+mod text;
+mod validate;
 
 pub use camera::{Camera, Projection};
+pub use error::SceneError;
 pub use light::Light;
 pub use material::Material;
 pub use primitive::{Primitive, Solid, SolidKind};
+pub use validate::{DEPTH_LIMIT, LIGHT_LIMIT, PRIMITIVE_LIMIT};
 
 use glam::DVec3;
 

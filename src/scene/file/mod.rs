@@ -1,0 +1,171 @@
+//! Scene files: TOML for people, JSON for programs, one data model and one decoder.
+
+mod decode;
+mod tree;
+mod write;
+
+use std::fs::{self, File};
+use std::io::{self, Read, Write};
+use std::path::Path;
+
+use self::tree::{Document, Node};
+use super::validate::{self, Place, Violation};
+use super::{Scene, SceneError};
+
+/// The two kinds of scene file; the extension decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Format {
+    Toml,
+    Json,
+}
+
+/// What is wrong in the text of a file.
+struct Fault {
+    /// Bytes from the start of the text.
+    offset: usize,
+    what: String,
+}
+
+impl Scene {
+    /// Reads a `.toml` or `.json` file; the scene is valid.
+    pub fn load(path: &Path) -> Result<Self, SceneError> {
+        let in_file = |error: SceneError| SceneError { path: Some(path.to_owned()), ..error };
+        let (format, source) = read(path).map_err(|what| in_file(refusal(what)))?;
+        format.decode(&source).map_err(in_file)
+    }
+
+    /// Reads a scene from the text of a TOML file; the scene is valid.
+    pub fn from_toml(source: &str) -> Result<Self, SceneError> {
+        Format::Toml.decode(source)
+    }
+
+    /// Reads a scene from the text of a JSON file; the scene is valid.
+    pub fn from_json(source: &str) -> Result<Self, SceneError> {
+        Format::Json.decode(source)
+    }
+
+    /// Writes a `.toml` or `.json` file, whole or not at all; an invalid scene is refused.
+    pub fn save(&self, path: &Path) -> Result<(), SceneError> {
+        let in_file = |error: SceneError| SceneError { path: Some(path.to_owned()), ..error };
+        self.validate().map_err(in_file)?;
+        let format = Format::of(path).map_err(|what| in_file(refusal(what)))?;
+        let text = match format {
+            Format::Toml => self.to_toml(),
+            Format::Json => self.to_json(),
+        };
+        format.check_size(text.len() as u64).map_err(|what| in_file(refusal(what)))?;
+        replace(path, text.as_bytes()).map_err(|error| in_file(refusal(format!("could not be written: {error}"))))
+    }
+}
+
+impl Format {
+    fn of(path: &Path) -> Result<Self, String> {
+        let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
+        match extension.to_str() {
+            Some("toml") => Ok(Self::Toml),
+            Some("json") => Ok(Self::Json),
+            _ => Err("a scene file's name must end in .toml or .json".to_owned()),
+        }
+    }
+
+    /// Largest file, bytes. Parsing takes up to some 50 times as much memory for TOML, 25 times for JSON; the limits
+    /// keep that below 1.5 GB and are about 100 thousand and 400 thousand primitives.
+    fn largest(self) -> u64 {
+        match self {
+            Self::Toml => 16 << 20,
+            Self::Json => 64 << 20,
+        }
+    }
+
+    fn check_size(self, size: u64) -> Result<(), String> {
+        if size <= self.largest() {
+            return Ok(());
+        }
+        Err(format!("{size} bytes: a {self:?} scene file may have at most {} bytes", self.largest()))
+    }
+
+    fn decode(self, source: &str) -> Result<Scene, SceneError> {
+        self.check_size(source.len() as u64).map_err(refusal)?;
+        // Some editors put a byte order mark before UTF-8.
+        let source = source.strip_prefix('\u{feff}').unwrap_or(source);
+        self.decode_bare(source).map_err(|fault| SceneError {
+            path: None,
+            line: Some(1 + source.bytes().take(fault.offset).filter(|&byte| byte == b'\n').count()),
+            what: fault.what,
+        })
+    }
+
+    fn decode_bare(self, source: &str) -> Result<Scene, Fault> {
+        let document = match self {
+            Self::Toml => Document::parse_toml(source)?,
+            Self::Json => Document::parse_json(source)?,
+        };
+        let scene = decode::scene(document.root())?;
+        if let Err(violation) = validate::check(&scene) {
+            let offset = locate(document.root(), &violation).offset();
+            return Err(Fault { offset, what: violation.to_string() });
+        }
+        Ok(scene)
+    }
+}
+
+/// Where the offending value stands, or the innermost table around it when the value is a default.
+fn locate<'t>(root: Node<'t>, violation: &Violation<'_>) -> Node<'t> {
+    let element = |list, index| root.get(list).and_then(|list| list.at(index));
+    let place = match violation.place {
+        Place::Scene => None,
+        Place::Camera => root.get("camera"),
+        Place::Light(index) => element("lights", index),
+        Place::Primitive { index, .. } => element("primitives", index),
+    };
+    let mut node = place.unwrap_or(root);
+    for key in violation.field.split('.') {
+        node = node.get(key).unwrap_or(node);
+    }
+    node
+}
+
+fn refusal(what: String) -> SceneError {
+    SceneError { path: None, line: None, what }
+}
+
+fn read(path: &Path) -> Result<(Format, String), String> {
+    let unreadable = |error: io::Error| format!("could not be read: {error}");
+    let metadata = fs::metadata(path).map_err(unreadable)?;
+    if metadata.is_dir() {
+        return Err("is a folder, not a scene file".to_owned());
+    }
+    let format = Format::of(path)?;
+    // A pipe could keep the reader waiting, a device could be endless.
+    if !metadata.is_file() {
+        return Err("is not a regular file".to_owned());
+    }
+    format.check_size(metadata.len())?;
+    let mut bytes = Vec::new();
+    // The file may have grown since its size was asked.
+    let file = File::open(path).map_err(unreadable)?;
+    file.take(format.largest() + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    let source = String::from_utf8(bytes).map_err(|error| format!("is not UTF-8 text: {}", error.utf8_error()))?;
+    Ok((format, source))
+}
+
+/// Puts `content` in place of the file at `path`: what stands there stays until the new file is on the disk.
+fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
+    // A link keeps pointing to the file that it pointed to.
+    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".zerkalo-");
+    let old = fs::metadata(&path).ok().map(|metadata| metadata.permissions());
+    // A temporary file is for its owner alone unless told otherwise; the process's umask still applies to this.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = builder.tempfile_in(folder)?;
+    file.write_all(content)?;
+    if let Some(old) = old {
+        file.as_file().set_permissions(old)?;
+    }
+    file.as_file().sync_all()?;
+    file.persist(&path)?;
+    Ok(())
+}

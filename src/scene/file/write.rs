@@ -1,0 +1,139 @@
+//! From a scene to text. TOML is for people: fields that have their default value are left out, geometry never is.
+//! JSON is for programs: every field stands there.
+
+use super::Format;
+use crate::scene::text::{number, quoted, vector};
+use crate::scene::{Camera, Light, Material, Primitive, Scene, Solid};
+
+impl Scene {
+    /// The scene as TOML; reads back to the bit if the scene is valid.
+    pub fn to_toml(&self) -> String {
+        let default = Scene::default();
+        let mut lines = Vec::new();
+        let mut line = |key: &str, value: &str| lines.push(format!("{key} = {value}\n"));
+        for (key, value) in Format::Toml.fields(scene_fields(self), &scene_fields(&default)) {
+            line(key, &value);
+        }
+        // Dotted keys, for a [camera] header would swallow the arrays behind it.
+        for (key, value) in Format::Toml.fields(camera_fields(&self.camera), &camera_fields(&default.camera)) {
+            line(&format!("camera.{key}"), &value);
+        }
+        let lights = rows(&self.lights, |light| Format::Toml.light(light));
+        if lights != rows(&default.lights, |light| Format::Toml.light(light)) {
+            line("lights", &lights);
+        }
+        if !self.primitives.is_empty() {
+            line("primitives", &rows(&self.primitives, |primitive| Format::Toml.primitive(primitive)));
+        }
+        lines.concat()
+    }
+
+    /// The scene as JSON; reads back to the bit if the scene is valid.
+    pub fn to_json(&self) -> String {
+        let mut fields = scene_fields(self);
+        fields.push(("camera", Format::Json.table(&camera_fields(&self.camera))));
+        fields.push(("lights", rows(&self.lights, |light| Format::Json.light(light))));
+        fields.push(("primitives", rows(&self.primitives, |primitive| Format::Json.primitive(primitive))));
+        let lines: Vec<String> = fields.iter().map(|(key, value)| format!("\"{key}\": {value}")).collect();
+        format!("{{\n{}\n}}\n", lines.join(",\n"))
+    }
+}
+
+/// A field's name and its value's text; numbers, strings and arrays are spelled alike in both formats.
+type Field = (&'static str, String);
+
+fn scene_fields(scene: &Scene) -> Vec<Field> {
+    vec![("max_depth", scene.max_depth.to_string()), ("background", vector(scene.background))]
+}
+
+fn camera_fields(camera: &Camera) -> Vec<Field> {
+    vec![
+        ("position", vector(camera.position)),
+        ("direction", vector(camera.direction)),
+        ("up", vector(camera.up)),
+        ("vertical_fov_degrees", number(camera.vertical_fov_degrees)),
+        ("projection", quoted(camera.projection.name())),
+    ]
+}
+
+fn material_fields(material: &Material) -> Vec<Field> {
+    vec![
+        ("color", vector(material.color)),
+        ("ambient", number(material.ambient)),
+        ("diffuse", number(material.diffuse)),
+        ("specular", number(material.specular)),
+    ]
+}
+
+fn solid_fields(solid: &Solid) -> Vec<Field> {
+    match solid {
+        Solid::Sphere { center, radius } => vec![("center", vector(*center)), ("radius", number(*radius))],
+        Solid::Box { center, half_size, rotation_degrees } => vec![
+            ("center", vector(*center)),
+            ("half_size", vector(*half_size)),
+            ("rotation_degrees", vector(*rotation_degrees)),
+        ],
+        Solid::Cylinder { ends, radius } => {
+            vec![("ends", format!("[{}, {}]", vector(ends[0]), vector(ends[1]))), ("radius", number(*radius))]
+        }
+        Solid::Cone { apex, axis, height, half_angle_degrees } => vec![
+            ("apex", vector(*apex)),
+            ("axis", vector(*axis)),
+            ("height", number(*height)),
+            ("half_angle_degrees", number(*half_angle_degrees)),
+        ],
+    }
+}
+
+impl Format {
+    fn light(self, light: &Light) -> String {
+        let position = ("position", vector(light.position));
+        let intensity = vec![("intensity", vector(light.intensity))];
+        let default = [("intensity", vector(Light::default().intensity))];
+        let mut fields = vec![position];
+        fields.extend(self.fields(intensity, &default));
+        self.table(&fields)
+    }
+
+    fn primitive(self, primitive: &Primitive) -> String {
+        let mut fields = vec![("kind", quoted(primitive.solid.kind().name()))];
+        fields.extend(primitive.name.as_ref().map(|name| ("name", quoted(name))));
+        fields.extend(solid_fields(&primitive.solid));
+        let material = self.fields(material_fields(&primitive.material), &material_fields(&Material::default()));
+        if !material.is_empty() {
+            fields.push(("material", self.table(&material)));
+        }
+        self.table(&fields)
+    }
+
+    /// The fields that this format writes. Texts are compared, not values: −0 is not 0 there.
+    fn fields(self, mut fields: Vec<Field>, default: &[Field]) -> Vec<Field> {
+        if matches!(self, Self::Toml) {
+            fields.retain(|field| !default.contains(field));
+        }
+        fields
+    }
+
+    /// A table on one line.
+    fn table(self, fields: &[Field]) -> String {
+        match self {
+            Self::Toml => {
+                let fields: Vec<String> = fields.iter().map(|(key, value)| format!("{key} = {value}")).collect();
+                format!("{{ {} }}", fields.join(", "))
+            }
+            Self::Json => {
+                let fields: Vec<String> = fields.iter().map(|(key, value)| format!("\"{key}\": {value}")).collect();
+                format!("{{{}}}", fields.join(", "))
+            }
+        }
+    }
+}
+
+/// An array with an element a line.
+fn rows<T>(elements: &[T], row: impl Fn(&T) -> String) -> String {
+    if elements.is_empty() {
+        return "[]".to_owned();
+    }
+    let rows: Vec<String> = elements.iter().map(|element| format!("  {}", row(element))).collect();
+    format!("[\n{}\n]", rows.join(",\n"))
+}
