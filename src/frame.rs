@@ -1,0 +1,205 @@
+//! A finished picture: linear pixels in memory, PNG or OpenEXR on disk.
+
+mod exr_file;
+mod png_file;
+
+use std::fs::{self, File};
+use std::io::{BufReader, BufWriter, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+use thiserror::Error;
+
+/// Linear RGB pixels, row-major, row 0 on top. Values are not limited: a highlight may exceed 1.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Frame {
+    width: u32,
+    height: u32,
+    pixels: Vec<[f32; 3]>,
+}
+
+/// How a frame lies on disk; the file name's extension decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FileFormat {
+    /// Display values: what a screen shows, see [`display_value`].
+    Png,
+    /// Linear values, every bit of them.
+    Exr,
+}
+
+/// Why a frame could not be made, read or written; each message is one line that names the operation and the object.
+#[derive(Debug, Error)]
+pub enum FrameError {
+    #[error("a frame of {width}x{height} pixels is impossible: each side must be 1 to {max}", max = Frame::MAX_SIDE)]
+    Size { width: u64, height: u64 },
+    #[error("could not allocate a frame of {width}x{height} pixels ({bytes} B)")]
+    Memory { width: u32, height: u32, bytes: u64 },
+    #[error("unknown image format: {path:?} must end in .png or .exr")]
+    UnknownFormat { path: PathBuf },
+    #[error("could not read image {path:?}: {reason}")]
+    Read { path: PathBuf, reason: String },
+    #[error("could not write image {path:?}: {reason}")]
+    Write { path: PathBuf, reason: String },
+}
+
+/// Why the contents of a file are no frame.
+#[derive(Debug, Error)]
+enum DecodeError {
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+    #[error(transparent)]
+    Png(#[from] png::DecodingError),
+    #[error(transparent)]
+    Exr(#[from] exr::error::Error),
+}
+
+impl FrameError {
+    /// Whether what the caller named is at fault (a size, a file name, an input file), not the machine.
+    pub fn is_input_error(&self) -> bool {
+        match self {
+            Self::Size { .. } | Self::UnknownFormat { .. } | Self::Read { .. } => true,
+            Self::Memory { .. } | Self::Write { .. } => false,
+        }
+    }
+}
+
+impl FileFormat {
+    /// The format that the extension of `path` names, in capitals or not.
+    pub fn of(path: &Path) -> Result<Self, FrameError> {
+        let extension = path.extension().unwrap_or_default();
+        if extension.eq_ignore_ascii_case("png") {
+            Ok(Self::Png)
+        } else if extension.eq_ignore_ascii_case("exr") {
+            Ok(Self::Exr)
+        } else {
+            Err(FrameError::UnknownFormat { path: path.to_owned() })
+        }
+    }
+}
+
+/// The 8-bit value a screen shows for a linear one: clamped to [0, 1], times 255, rounded to nearest; NaN is 0.
+/// There is no gamma, as in the course work's display.
+pub fn display_value(linear: f32) -> u8 {
+    // `clamp` keeps NaN and the cast turns it into 0.
+    (linear.clamp(0.0, 1.0) * 255.0).round() as u8
+}
+
+impl Frame {
+    /// Largest width and height in pixels.
+    pub const MAX_SIDE: u32 = 16384;
+
+    /// A black frame. Fails on an impossible size and, instead of aborting, when the memory is not to be had:
+    /// the largest frame takes 3 GiB.
+    pub fn new(width: u32, height: u32) -> Result<Self, FrameError> {
+        let sides = 1..=Self::MAX_SIDE;
+        if !sides.contains(&width) || !sides.contains(&height) {
+            return Err(FrameError::Size { width: width.into(), height: height.into() });
+        }
+        let count = width as usize * height as usize;
+        let mut pixels: Vec<[f32; 3]> = Vec::new();
+        pixels.try_reserve_exact(count).map_err(|_| FrameError::Memory {
+            width,
+            height,
+            bytes: (count * size_of::<[f32; 3]>()) as u64,
+        })?;
+        pixels.resize(count, [0.0; 3]);
+        Ok(Self { width, height, pixels })
+    }
+
+    /// In pixels.
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// In pixels.
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// All `width * height` pixels, row by row from the top.
+    pub fn pixels(&self) -> &[[f32; 3]] {
+        &self.pixels
+    }
+
+    /// As [`Frame::pixels`], to be filled.
+    pub fn pixels_mut(&mut self) -> &mut [[f32; 3]] {
+        &mut self.pixels
+    }
+
+    /// The rows from the top, each of `width` pixels.
+    pub fn rows(&self) -> impl Iterator<Item = &[[f32; 3]]> {
+        self.pixels.chunks_exact(self.width as usize)
+    }
+
+    /// Reads a PNG (8 or 16 bits, grey or RGB; values scaled to [0, 1], alpha ignored) or the first RGB layer of an
+    /// OpenEXR file (alpha ignored, the data window only).
+    pub fn load(path: &Path) -> Result<Self, FrameError> {
+        let format = FileFormat::of(path)?;
+        let failed = |reason: &dyn ToString| FrameError::Read { path: path.to_owned(), reason: reason.to_string() };
+        let file = BufReader::new(File::open(path).map_err(|error| failed(&error))?);
+        match format {
+            FileFormat::Png => png_file::read(file),
+            FileFormat::Exr => exr_file::read(file),
+        }
+        .map_err(|error| failed(&error))
+    }
+
+    /// Writes the frame whole or not at all: into a temporary file beside `path` that takes its place at the end.
+    /// After a failure or an interruption an older file is as it was.
+    pub fn save(&self, path: &Path) -> Result<(), FrameError> {
+        let format = FileFormat::of(path)?;
+        let failed = |reason: &dyn ToString| FrameError::Write { path: path.to_owned(), reason: reason.to_string() };
+        let mut file = create_beside(path)?;
+        let mut output = BufWriter::new(file.as_file_mut());
+        match format {
+            FileFormat::Png => png_file::write(self, &mut output).map_err(|error| failed(&error))?,
+            FileFormat::Exr => exr_file::write(self, &mut output).map_err(|error| failed(&error))?,
+        }
+        output.flush().map_err(|error| failed(&error))?;
+        drop(output);
+        // Some file systems report a full disk only now; and the new name must not reach the disk before the data.
+        file.as_file().sync_all().map_err(|error| failed(&error))?;
+        file.persist(resolve_links(path)).map_err(|failure| failed(&failure.error))?;
+        Ok(())
+    }
+
+    /// Refuses at once what [`Frame::save`] would refuse after a long render: an unknown extension, a folder that does
+    /// not exist or may not be written to, a name that is a folder's, a write-protected file. Leaves nothing behind.
+    pub fn check_output_path(path: &Path) -> Result<(), FrameError> {
+        FileFormat::of(path)?;
+        create_beside(path).map(drop)
+    }
+}
+
+/// The file that `path` stands for: replacing a symbolic link by a picture would surprise its owner.
+fn resolve_links(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
+}
+
+/// An empty temporary file in the folder of `path`, with the permissions a plain write to `path` would leave.
+/// It removes itself unless it is persisted.
+fn create_beside(path: &Path) -> Result<NamedTempFile, FrameError> {
+    let failed = |reason: &dyn ToString| FrameError::Write { path: path.to_owned(), reason: reason.to_string() };
+    let target = resolve_links(path);
+    let existing = fs::metadata(&target).ok();
+    if existing.as_ref().is_some_and(|metadata| !metadata.is_file()) {
+        return Err(failed(&"it exists and is not a file"));
+    }
+    if existing.as_ref().is_some_and(|metadata| metadata.permissions().readonly()) {
+        return Err(failed(&"it is write-protected"));
+    }
+    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(failed(&format!("{folder:?} is not a folder")));
+    }
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".zerkalo-").suffix(".tmp");
+    // The default of 0600 is meant for secrets; the umask still applies to this.
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let file = builder.tempfile_in(folder).map_err(|error| failed(&error))?;
+    if let Some(metadata) = existing {
+        file.as_file().set_permissions(metadata.permissions()).map_err(|error| failed(&error))?;
+    }
+    Ok(file)
+}
