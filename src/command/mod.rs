@@ -1,0 +1,3 @@
+//! One file a subcommand, each a few lines over the library.
+
+pub mod compare;

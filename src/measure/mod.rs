@@ -1,0 +1,7 @@
+//! What a frame is worth: how far it is from another.
+
+mod image_error;
+mod mask;
+
+pub use image_error::{ComparisonError, ErrorDomain, ImageError, image_error};
+pub use mask::Mask;
