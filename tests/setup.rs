@@ -1,0 +1,16 @@
+//! The shell scripts that a new machine depends on.
+
+use std::path::Path;
+use std::process::Command;
+
+#[test]
+fn scripts_pass_shellcheck() {
+    for script in ["setup.sh", ".ci/run"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(script);
+        let check = Command::new("shellcheck")
+            .arg(path)
+            .output()
+            .unwrap_or_else(|error| panic!("could not run shellcheck ({error}); ./setup.sh installs it"));
+        assert!(check.status.success(), "{}", String::from_utf8_lossy(&check.stdout));
+    }
+}
