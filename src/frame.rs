@@ -61,6 +61,14 @@ impl FrameError {
             Self::Memory { .. } | Self::Write { .. } => false,
         }
     }
+
+    fn read(path: &Path, reason: impl ToString) -> Self {
+        Self::Read { path: path.to_owned(), reason: reason.to_string() }
+    }
+
+    fn write(path: &Path, reason: impl ToString) -> Self {
+        Self::Write { path: path.to_owned(), reason: reason.to_string() }
+    }
 }
 
 impl FileFormat {
@@ -135,31 +143,29 @@ impl Frame {
     /// OpenEXR file (alpha ignored, the data window only).
     pub fn load(path: &Path) -> Result<Self, FrameError> {
         let format = FileFormat::of(path)?;
-        let failed = |reason: &dyn ToString| FrameError::Read { path: path.to_owned(), reason: reason.to_string() };
-        let file = BufReader::new(File::open(path).map_err(|error| failed(&error))?);
+        let file = BufReader::new(File::open(path).map_err(|error| FrameError::read(path, error))?);
         match format {
             FileFormat::Png => png_file::read(file),
             FileFormat::Exr => exr_file::read(file),
         }
-        .map_err(|error| failed(&error))
+        .map_err(|error| FrameError::read(path, error))
     }
 
     /// Writes the frame whole or not at all: into a temporary file beside `path` that takes its place at the end.
     /// After a failure or an interruption an older file is as it was.
     pub fn save(&self, path: &Path) -> Result<(), FrameError> {
         let format = FileFormat::of(path)?;
-        let failed = |reason: &dyn ToString| FrameError::Write { path: path.to_owned(), reason: reason.to_string() };
         let mut file = create_beside(path)?;
         let mut output = BufWriter::new(file.as_file_mut());
         match format {
-            FileFormat::Png => png_file::write(self, &mut output).map_err(|error| failed(&error))?,
-            FileFormat::Exr => exr_file::write(self, &mut output).map_err(|error| failed(&error))?,
+            FileFormat::Png => png_file::write(self, &mut output).map_err(|error| FrameError::write(path, error))?,
+            FileFormat::Exr => exr_file::write(self, &mut output).map_err(|error| FrameError::write(path, error))?,
         }
-        output.flush().map_err(|error| failed(&error))?;
+        output.flush().map_err(|error| FrameError::write(path, error))?;
         drop(output);
         // Some file systems report a full disk only now; and the new name must not reach the disk before the data.
-        file.as_file().sync_all().map_err(|error| failed(&error))?;
-        file.persist(resolve_links(path)).map_err(|failure| failed(&failure.error))?;
+        file.as_file().sync_all().map_err(|error| FrameError::write(path, error))?;
+        file.persist(resolve_links(path)).map_err(|failure| FrameError::write(path, failure.error))?;
         Ok(())
     }
 
@@ -179,27 +185,26 @@ fn resolve_links(path: &Path) -> PathBuf {
 /// An empty temporary file in the folder of `path`, with the permissions a plain write to `path` would leave.
 /// It removes itself unless it is persisted.
 fn create_beside(path: &Path) -> Result<NamedTempFile, FrameError> {
-    let failed = |reason: &dyn ToString| FrameError::Write { path: path.to_owned(), reason: reason.to_string() };
     let target = resolve_links(path);
     let existing = fs::metadata(&target).ok();
     if existing.as_ref().is_some_and(|metadata| !metadata.is_file()) {
-        return Err(failed(&"it exists and is not a file"));
+        return Err(FrameError::write(path, "it exists and is not a file"));
     }
     if existing.as_ref().is_some_and(|metadata| metadata.permissions().readonly()) {
-        return Err(failed(&"it is write-protected"));
+        return Err(FrameError::write(path, "it is write-protected"));
     }
     let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if !folder.is_dir() {
-        return Err(failed(&format!("{folder:?} is not a folder")));
+        return Err(FrameError::write(path, format!("{folder:?} is not a folder")));
     }
     let mut builder = tempfile::Builder::new();
     builder.prefix(".zerkalo-").suffix(".tmp");
     // The default of 0600 is meant for secrets; the umask still applies to this.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = builder.tempfile_in(folder).map_err(|error| failed(&error))?;
+    let file = builder.tempfile_in(folder).map_err(|error| FrameError::write(path, error))?;
     if let Some(metadata) = existing {
-        file.as_file().set_permissions(metadata.permissions()).map_err(|error| failed(&error))?;
+        file.as_file().set_permissions(metadata.permissions()).map_err(|error| FrameError::write(path, error))?;
     }
     Ok(file)
 }
