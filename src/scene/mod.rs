@@ -4,8 +4,10 @@
 //! (the unit is in the field's name), colours and intensities are linear RGB.
 
 mod camera;
+mod edit;
 mod error;
 mod file;
+pub mod gallery;
 mod light;
 mod material;
 mod primitive;
@@ -13,6 +15,7 @@ mod text;
 mod validate;
 
 pub use camera::{Camera, Projection};
+pub use edit::{COURSE_PRIMITIVE_LIMIT, TooManyPrimitives, world_from_box};
 pub use error::SceneError;
 pub use light::Light;
 pub use material::Material;

@@ -11,6 +11,13 @@ pub struct Primitive {
     pub material: Material,
 }
 
+impl Primitive {
+    /// What the course's «Добавить» button makes: [`Solid::course_default`] with the default material.
+    pub fn course_default(kind: SolidKind) -> Self {
+        Self { name: None, solid: Solid::course_default(kind), material: Material::default() }
+    }
+}
+
 /// Which of the four solids, without its sizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum SolidKind {
@@ -94,4 +101,4 @@ impl Solid {
 }
 
 /// acos(0.9): the course's cone stores the cosine 0.9.
-const COURSE_CONE_HALF_ANGLE_DEGREES: f64 = 25.841_932_763_167_124;
+const COURSE_CONE_HALF_ANGLE_DEGREES: f64 = 25.841_932_763_167_129;

@@ -1,0 +1,87 @@
+//! Ready scenes: the program's own showcase, the figures of the course work and the grids of its table 4.1.
+//!
+//! They are made here and written to `scenes/`, so that they can be drawn without the files and read without the
+//! program.
+
+mod figures;
+mod showcase;
+
+use std::path::Path;
+
+use super::{Scene, SceneError, SolidKind};
+
+/// A scene of the gallery.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Entry {
+    /// What the command line and the file's name call it.
+    pub name: String,
+    /// One line.
+    pub english: String,
+    /// One line.
+    pub russian: String,
+}
+
+/// All scenes: the showcase, the course's start state and figures, the grids by kind and number.
+pub fn entries() -> Vec<Entry> {
+    makers().into_iter().map(|(entry, _)| entry).collect()
+}
+
+/// The scene called `name`.
+pub fn scene(name: &str) -> Option<Scene> {
+    makers().into_iter().find(|(entry, _)| entry.name == name).map(|(_, maker)| maker.make())
+}
+
+/// Writes every scene to `folder/NAME.toml`.
+pub fn write_all(folder: &Path) -> Result<(), SceneError> {
+    makers().into_iter().try_for_each(|(entry, maker)| maker.make().save(&folder.join(entry.name + ".toml")))
+}
+
+enum Maker {
+    Single(fn() -> Scene),
+    Grid(SolidKind, usize),
+}
+
+impl Maker {
+    fn make(self) -> Scene {
+        match self {
+            Self::Single(make) => make(),
+            Self::Grid(kind, count) => figures::grid(kind, count),
+        }
+    }
+}
+
+fn makers() -> Vec<(Entry, Maker)> {
+    let single: [(&str, fn() -> Scene, &str, &str); 10] = [
+        ("showcase", showcase::scene, "the four solids among mirrors", "четыре тела среди зеркал"),
+        ("start", figures::start, "the course program as it starts", "начальное состояние программы"),
+        ("sphere", figures::sphere, "a sphere", "сфера"),
+        ("box", figures::turned_box, "a turned cube", "повёрнутый куб"),
+        ("cylinder", figures::cylinder, "a cylinder", "цилиндр"),
+        ("cone", figures::cone, "a cone", "конус"),
+        ("four", figures::four, "figure 3.5: the four solids", "рисунок 3.5: четыре примитива"),
+        ("light", figures::light, "figure 3.6: a coloured light", "рисунок 3.6: изменённый цвет источника"),
+        ("corridor", figures::corridor, "figure 3.7: mutual reflections", "рисунок 3.7: взаимные отражения"),
+        ("several", figures::several, "figure 3.8: two solids seen in a third", "рисунок 3.8: два примитива в третьем"),
+    ];
+    let single = single.map(|(name, make, english, russian)| {
+        (Entry { name: name.into(), english: english.into(), russian: russian.into() }, Maker::Single(make))
+    });
+    let counts = || (10..=100).step_by(10);
+    let grids = SolidKind::ALL.into_iter().flat_map(|kind| counts().map(move |count| (kind, count)));
+    let grids = grids.map(|(kind, count)| {
+        let russian = match kind {
+            SolidKind::Sphere => "сферы",
+            SolidKind::Box => "кубы",
+            SolidKind::Cylinder => "цилиндры",
+            SolidKind::Cone => "конусы",
+        };
+        let name = kind.name();
+        let entry = Entry {
+            name: format!("grid-{name}-{count}"),
+            english: format!("table 4.1: {count} of the kind {name}"),
+            russian: format!("таблица 4.1: {russian}, {count}"),
+        };
+        (entry, Maker::Grid(kind, count))
+    });
+    single.into_iter().chain(grids).collect()
+}
