@@ -101,4 +101,4 @@ impl Solid {
 }
 
 /// acos(0.9): the course's cone stores the cosine 0.9.
-const COURSE_CONE_HALF_ANGLE_DEGREES: f64 = 25.841_932_763_167_129;
+const COURSE_CONE_HALF_ANGLE_DEGREES: f64 = 25.841_932_763_167_13;

@@ -93,7 +93,8 @@ pub(super) fn check(scene: &Scene) -> Result<(), Violation<'_>> {
     let whole = Field::of(Place::Scene);
     whole.vector("background", scene.background, NOT_NEGATIVE, |v| v.min_element() >= 0.0)?;
     whole.rule("max_depth", (1..=DEPTH_LIMIT).contains(&scene.max_depth), DEPTH, || scene.max_depth.to_string())?;
-    check_counts(scene.lights.len(), scene.primitives.len())?;
+    check_light_count(scene.lights.len())?;
+    check_primitive_count(scene.primitives.len())?;
     for (index, light) in scene.lights.iter().enumerate() {
         check_light(index, light)?;
     }
@@ -103,12 +104,14 @@ pub(super) fn check(scene: &Scene) -> Result<(), Violation<'_>> {
     Ok(())
 }
 
-fn check_counts(lights: usize, primitives: usize) -> Result<(), Violation<'static>> {
-    let whole = Field::of(Place::Scene);
-    whole.rule("lights", lights <= LIGHT_LIMIT, "at most 64 are allowed", || format!("[{lights} of them]"))?;
-    whole.rule("primitives", primitives <= PRIMITIVE_LIMIT, "at most 16777216 are allowed", || {
-        format!("[{primitives} of them]")
-    })
+pub(super) fn check_light_count(count: usize) -> Result<(), Violation<'static>> {
+    let shown = || format!("[{count} of them]");
+    Field::of(Place::Scene).rule("lights", count <= LIGHT_LIMIT, "at most 64 are allowed", shown)
+}
+
+pub(super) fn check_primitive_count(count: usize) -> Result<(), Violation<'static>> {
+    let shown = || format!("[{count} of them]");
+    Field::of(Place::Scene).rule("primitives", count <= PRIMITIVE_LIMIT, "at most 16777216 are allowed", shown)
 }
 
 fn check_camera(camera: &Camera) -> Result<(), Violation<'_>> {
@@ -239,10 +242,10 @@ mod tests {
 
     #[test]
     fn counts_beyond_the_limits_are_refused() {
-        assert!(check_counts(LIGHT_LIMIT, PRIMITIVE_LIMIT).is_ok());
-        let message = check_counts(0, PRIMITIVE_LIMIT + 1).err().map(|violation| violation.to_string());
+        assert!(check_light_count(LIGHT_LIMIT).is_ok() && check_primitive_count(PRIMITIVE_LIMIT).is_ok());
+        let message = check_primitive_count(PRIMITIVE_LIMIT + 1).err().map(|violation| violation.to_string());
         assert_eq!(message.as_deref(), Some("primitives = [16777217 of them]: at most 16777216 are allowed"));
-        assert!(check_counts(LIGHT_LIMIT + 1, 0).is_err());
+        assert!(check_light_count(LIGHT_LIMIT + 1).is_err());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::Fault;
 use super::tree::{Entry, Node, Shape};
 use crate::scene::text;
-use crate::scene::validate::{DEPTH, FINITE, Place, unit};
+use crate::scene::validate::{DEPTH, FINITE, Place, Violation, check_light_count, check_primitive_count, unit};
 use crate::scene::{Camera, Light, Material, Primitive, Projection, Scene, Solid, SolidKind};
 
 pub(super) fn scene(root: Node<'_>) -> Result<Scene, Fault> {
@@ -16,8 +16,8 @@ pub(super) fn scene(root: Node<'_>) -> Result<Scene, Fault> {
         camera: fields.get("camera").map_or(Ok(default.camera), camera)?,
         background: fields.read("background", vector, default.background)?,
         max_depth: fields.read("max_depth", depth, default.max_depth)?,
-        lights: fields.list("lights", light)?.unwrap_or(default.lights),
-        primitives: fields.list("primitives", primitive)?.unwrap_or_default(),
+        lights: fields.list("lights", check_light_count, light)?.unwrap_or(default.lights),
+        primitives: fields.list("primitives", check_primitive_count, primitive)?.unwrap_or_default(),
     })
 }
 
@@ -51,7 +51,7 @@ fn primitive(index: usize, node: Node<'_>) -> Result<Primitive, Fault> {
     let unknown = Place::Primitive { index, kind: None, name };
     let kind = match node.get("kind") {
         Some(kind_node) => solid_kind(kind_node).map_err(|rule| wrong(kind_node, unknown, "", "kind", rule))?,
-        None if matches!(node.shape(), Shape::Table(_)) => {
+        None if node.is_table() => {
             return Err(Fault { offset: node.offset(), what: format!("{unknown}kind is missing: {KINDS}") });
         }
         None => return Err(wrong_table(node, unknown, "")),
@@ -149,13 +149,16 @@ impl<'t> Fields<'t> {
     fn list<T>(
         &self,
         key: &'static str,
+        check_count: impl Fn(usize) -> Result<(), Violation<'static>>,
         element: impl Fn(usize, Node<'t>) -> Result<T, Fault>,
     ) -> Result<Option<Vec<T>>, Fault> {
         let Some(node) = self.get(key) else { return Ok(None) };
         let Shape::Array(nodes) = node.shape() else {
             return Err(wrong(node, self.place, self.prefix, key, "must be an array of tables"));
         };
-        let elements = nodes.into_iter().enumerate().map(|(index, node)| element(index, node));
+        // Before millions of them are made.
+        check_count(nodes.len()).map_err(|violation| Fault { offset: node.offset(), what: violation.to_string() })?;
+        let elements = nodes.iter().enumerate().map(|(index, node)| element(index, node));
         elements.collect::<Result<_, _>>().map(Some)
     }
 }
@@ -185,7 +188,7 @@ fn number(node: Node<'_>) -> Result<f64, &'static str> {
 fn vector(node: Node<'_>) -> Result<DVec3, &'static str> {
     const RULE: &str = "must be an array of three numbers";
     let Shape::Array(nodes) = node.shape() else { return Err(RULE) };
-    let [x, y, z] = nodes[..] else { return Err(RULE) };
+    let [x, y, z] = nodes.exactly().ok_or(RULE)?;
     let component = |node| number(node).map_err(|rule| if rule == FINITE { rule } else { RULE });
     Ok(DVec3::new(component(x)?, component(y)?, component(z)?))
 }
@@ -193,7 +196,7 @@ fn vector(node: Node<'_>) -> Result<DVec3, &'static str> {
 fn two_points(node: Node<'_>) -> Result<[DVec3; 2], &'static str> {
     const RULE: &str = "must be an array of two points of three numbers each";
     let Shape::Array(nodes) = node.shape() else { return Err(RULE) };
-    let [start, end] = nodes[..] else { return Err(RULE) };
+    let [start, end] = nodes.exactly().ok_or(RULE)?;
     let point = |node| vector(node).map_err(|rule| if rule == FINITE { rule } else { RULE });
     Ok([point(start)?, point(end)?])
 }

@@ -10,7 +10,7 @@ use jsonc_parser::ast::{ObjectPropName, Value as JsonValue};
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions};
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeArray, DeTable, DeValue};
 
 use super::Fault;
 use crate::scene::text;
@@ -35,7 +35,7 @@ pub(super) enum Node<'t> {
 pub(super) enum Shape<'t> {
     /// In the order of the file for JSON, of the keys for TOML; JSON may repeat a key.
     Table(Vec<Entry<'t>>),
-    Array(Vec<Node<'t>>),
+    Array(Elements<'t>),
     String(&'t str),
     Integer {
         digits: &'t str,
@@ -45,6 +45,38 @@ pub(super) enum Shape<'t> {
     Float(&'t str),
     /// A date, a truth value or JSON's null: a scene has none.
     Other,
+}
+
+/// The elements of an array, made when asked for: a hostile file has millions.
+#[derive(Clone, Copy)]
+pub(super) enum Elements<'t> {
+    Toml(&'t str, &'t DeArray<'t>),
+    Json(&'t str, &'t [JsonValue<'t>]),
+}
+
+impl<'t> Elements<'t> {
+    pub(super) fn len(self) -> usize {
+        match self {
+            Self::Toml(_, array) => array.len(),
+            Self::Json(_, array) => array.len(),
+        }
+    }
+
+    pub(super) fn iter(self) -> impl Iterator<Item = Node<'t>> {
+        (0..self.len()).map(move |index| self.at(index))
+    }
+
+    /// All of them, if they are `N`.
+    pub(super) fn exactly<const N: usize>(self) -> Option<[Node<'t>; N]> {
+        (self.len() == N).then(|| std::array::from_fn(|index| self.at(index)))
+    }
+
+    fn at(self, index: usize) -> Node<'t> {
+        match self {
+            Self::Toml(source, array) => Node::Toml(source, &array[index]),
+            Self::Json(source, array) => Node::Json(source, &array[index]),
+        }
+    }
 }
 
 pub(super) struct Entry<'t> {
@@ -112,10 +144,16 @@ impl<'t> Node<'t> {
         let (Self::Toml(source, _) | Self::Json(source, _)) = self;
         let spelled = source.get(self.span()).unwrap_or_default();
         // A TOML table made by a header or a dotted key has no text of its own: its span is the header or the key.
-        match self.shape() {
-            Shape::Table(_) if !spelled.starts_with('{') => "a table".to_owned(),
-            Shape::Array(_) if spelled.starts_with("[[") && matches!(self, Self::Toml(..)) => "an array".to_owned(),
-            _ => text::one_line(spelled, text::LONGEST_QUOTE),
+        if self.is_table() && !spelled.starts_with('{') {
+            return "a table".to_owned();
+        }
+        text::one_line(spelled, text::LONGEST_QUOTE)
+    }
+
+    pub(super) fn is_table(self) -> bool {
+        match self {
+            Self::Toml(_, value) => value.get_ref().is_table(),
+            Self::Json(_, value) => value.as_object().is_some(),
         }
     }
 
@@ -126,7 +164,7 @@ impl<'t> Node<'t> {
                 DeValue::Integer(integer) => Shape::Integer { digits: integer.as_str(), radix: integer.radix() },
                 DeValue::Float(float) => Shape::Float(float.as_str()),
                 DeValue::Boolean(_) | DeValue::Datetime(_) => Shape::Other,
-                DeValue::Array(array) => Shape::Array(array.iter().map(|value| Self::Toml(source, value)).collect()),
+                DeValue::Array(array) => Shape::Array(Elements::Toml(source, array)),
                 DeValue::Table(table) => {
                     let entry = |(key, value): (&'t Spanned<Cow<'t, str>>, &'t Spanned<DeValue<'t>>)| Entry {
                         key: key.get_ref(),
@@ -141,9 +179,7 @@ impl<'t> Node<'t> {
                 JsonValue::NumberLit(number) if number.value.contains(['.', 'e', 'E']) => Shape::Float(number.value),
                 JsonValue::NumberLit(number) => Shape::Integer { digits: number.value, radix: 10 },
                 JsonValue::BooleanLit(_) | JsonValue::NullKeyword(_) => Shape::Other,
-                JsonValue::Array(array) => {
-                    Shape::Array(array.elements.iter().map(|value| Self::Json(source, value)).collect())
-                }
+                JsonValue::Array(array) => Shape::Array(Elements::Json(source, &array.elements)),
                 JsonValue::Object(object) => {
                     let entry = |property: &'t jsonc_parser::ast::ObjectProp<'t>| Entry {
                         key: match &property.name {
@@ -168,7 +204,7 @@ impl<'t> Node<'t> {
     /// The element at `index`, if this is an array that has it.
     pub(super) fn at(self, index: usize) -> Option<Self> {
         let Shape::Array(elements) = self.shape() else { return None };
-        elements.into_iter().nth(index)
+        (index < elements.len()).then(|| elements.at(index))
     }
 
     fn span(self) -> Range<usize> {

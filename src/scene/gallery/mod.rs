@@ -36,8 +36,10 @@ pub fn write_all(folder: &Path) -> Result<(), SceneError> {
     makers().into_iter().try_for_each(|(entry, maker)| maker.make().save(&folder.join(entry.name + ".toml")))
 }
 
+type MakeScene = fn() -> Scene;
+
 enum Maker {
-    Single(fn() -> Scene),
+    Single(MakeScene),
     Grid(SolidKind, usize),
 }
 
@@ -51,7 +53,7 @@ impl Maker {
 }
 
 fn makers() -> Vec<(Entry, Maker)> {
-    let single: [(&str, fn() -> Scene, &str, &str); 10] = [
+    let single: [(&str, MakeScene, &str, &str); 10] = [
         ("showcase", showcase::scene, "the four solids among mirrors", "четыре тела среди зеркал"),
         ("start", figures::start, "the course program as it starts", "начальное состояние программы"),
         ("sphere", figures::sphere, "a sphere", "сфера"),
