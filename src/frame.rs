@@ -3,12 +3,13 @@
 mod exr_file;
 mod png_file;
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{BufReader, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
-use tempfile::NamedTempFile;
 use thiserror::Error;
+
+use crate::whole_file::WholeFile;
 
 /// Linear RGB pixels, row-major, row 0 on top. Values are not limited: a highlight may exceed 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,10 +100,7 @@ impl Frame {
     /// A black frame. Fails on an impossible size and, instead of aborting, when the memory is not to be had:
     /// the largest frame takes 3 GiB.
     pub fn new(width: u32, height: u32) -> Result<Self, FrameError> {
-        let sides = 1..=Self::MAX_SIDE;
-        if !sides.contains(&width) || !sides.contains(&height) {
-            return Err(FrameError::Size { width: width.into(), height: height.into() });
-        }
+        Self::check_size(width, height)?;
         let count = width as usize * height as usize;
         let mut pixels: Vec<[f32; 3]> = Vec::new();
         pixels.try_reserve_exact(count).map_err(|_| FrameError::Memory {
@@ -112,6 +110,16 @@ impl Frame {
         })?;
         pixels.resize(count, [0.0; 3]);
         Ok(Self { width, height, pixels })
+    }
+
+    /// Refuses what no frame can be, before anything is allocated for it.
+    pub fn check_size(width: u32, height: u32) -> Result<(), FrameError> {
+        let sides = 1..=Self::MAX_SIDE;
+        if sides.contains(&width) && sides.contains(&height) {
+            Ok(())
+        } else {
+            Err(FrameError::Size { width: width.into(), height: height.into() })
+        }
     }
 
     /// In pixels.
@@ -155,7 +163,7 @@ impl Frame {
     /// After a failure or an interruption an older file is as it was.
     pub fn save(&self, path: &Path) -> Result<(), FrameError> {
         let format = FileFormat::of(path)?;
-        let mut file = create_beside(path)?;
+        let mut file = WholeFile::create(path).map_err(|error| FrameError::write(path, error))?;
         let mut output = BufWriter::new(file.as_file_mut());
         match format {
             FileFormat::Png => png_file::write(self, &mut output).map_err(|error| FrameError::write(path, error))?,
@@ -163,48 +171,13 @@ impl Frame {
         }
         output.flush().map_err(|error| FrameError::write(path, error))?;
         drop(output);
-        // Some file systems report a full disk only now; and the new name must not reach the disk before the data.
-        file.as_file().sync_all().map_err(|error| FrameError::write(path, error))?;
-        file.persist(resolve_links(path)).map_err(|failure| FrameError::write(path, failure.error))?;
-        Ok(())
+        file.finish().map_err(|error| FrameError::write(path, error))
     }
 
     /// Refuses at once what [`Frame::save`] would refuse after a long render: an unknown extension, a folder that does
     /// not exist or may not be written to, a name that is a folder's, a write-protected file. Leaves nothing behind.
     pub fn check_output_path(path: &Path) -> Result<(), FrameError> {
         FileFormat::of(path)?;
-        create_beside(path).map(drop)
+        WholeFile::create(path).map(drop).map_err(|error| FrameError::write(path, error))
     }
-}
-
-/// The file that `path` stands for: replacing a symbolic link by a picture would surprise its owner.
-fn resolve_links(path: &Path) -> PathBuf {
-    fs::canonicalize(path).unwrap_or_else(|_| path.to_owned())
-}
-
-/// An empty temporary file in the folder of `path`, with the permissions a plain write to `path` would leave.
-/// It removes itself unless it is persisted.
-fn create_beside(path: &Path) -> Result<NamedTempFile, FrameError> {
-    let target = resolve_links(path);
-    let existing = fs::metadata(&target).ok();
-    if existing.as_ref().is_some_and(|metadata| !metadata.is_file()) {
-        return Err(FrameError::write(path, "it exists and is not a file"));
-    }
-    if existing.as_ref().is_some_and(|metadata| metadata.permissions().readonly()) {
-        return Err(FrameError::write(path, "it is write-protected"));
-    }
-    let folder = target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    if !folder.is_dir() {
-        return Err(FrameError::write(path, format!("{folder:?} is not a folder")));
-    }
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".zerkalo-").suffix(".tmp");
-    // The default of 0600 is meant for secrets; the umask still applies to this.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let file = builder.tempfile_in(folder).map_err(|error| FrameError::write(path, error))?;
-    if let Some(metadata) = existing {
-        file.as_file().set_permissions(metadata.permissions()).map_err(|error| FrameError::write(path, error))?;
-    }
-    Ok(file)
 }

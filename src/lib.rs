@@ -1,12 +1,19 @@
 //! A low-level Vulkan ray tracer for simple solids with adjustable reflection.
 //!
-//! The modules stand in the order the data takes: a [`scene`] is read or edited, becomes a [`frame`], which is
-//! [measured](measure); each [`command`] goes that way or a part of it.
+//! The modules stand in the order the data takes: a [`scene`] is read or edited, a [`tracer`] draws it on a device
+//! that [`gpu`] opened, the picture is a [`frame`], which is saved and [measured](measure); each [`command`] goes that
+//! way or a part of it.
 
 pub mod scene;
+
+pub mod gpu;
+
+pub mod tracer;
 
 pub mod frame;
 
 pub mod measure;
 
 pub mod command;
+
+mod whole_file;

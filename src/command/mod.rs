@@ -1,3 +1,101 @@
 //! One file a subcommand, each a few lines over the library.
 
 pub mod compare;
+pub mod devices;
+pub mod gallery;
+pub mod interrupt;
+pub mod render;
+
+use std::io::{self, Write};
+use std::path::Path;
+
+use clap::{Args, Subcommand};
+use serde::Serialize;
+
+use crate::frame::FrameError;
+use crate::gpu::GpuError;
+use crate::scene::{Scene, SceneError, gallery as ready};
+use crate::tracer::TracerError;
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    Render(render::RenderArgs),
+    Compare(compare::CompareArgs),
+    Devices(devices::DevicesArgs),
+    Gallery(gallery::GalleryArgs),
+}
+
+impl Command {
+    /// What `zerkalo` does without a word.
+    pub fn showcase() -> Self {
+        Self::Render(render::RenderArgs::showcase())
+    }
+
+    pub fn run(&self) -> anyhow::Result<()> {
+        match self {
+            Self::Render(args) => render::run(args),
+            Self::Compare(args) => Ok(compare::run(args)?),
+            Self::Devices(args) => devices::run(args),
+            Self::Gallery(args) => gallery::run(args),
+        }
+    }
+}
+
+/// Which Vulkan device to use.
+#[derive(Debug, Clone, Default, Args)]
+pub struct DeviceArgs {
+    /// Number or part of the name of a device, see `zerkalo devices`
+    #[arg(long, value_name = "NAME|INDEX", env = DEVICE_VARIABLE)]
+    pub device: Option<String>,
+}
+
+const DEVICE_VARIABLE: &str = "ZERKALO_DEVICE";
+
+impl DeviceArgs {
+    /// As clap fills it when no option is given.
+    fn from_environment() -> Self {
+        Self { device: std::env::var(DEVICE_VARIABLE).ok() }
+    }
+}
+
+/// The validation layers had something to say.
+#[derive(Debug, thiserror::Error)]
+#[error("validation: {count} message(s)")]
+pub struct ValidationFailed {
+    pub count: usize,
+}
+
+/// A ready scene by its name, else a scene from a file.
+fn scene_named(name: &str) -> Result<Scene, SceneError> {
+    match ready::scene(name) {
+        Some(scene) => Ok(scene),
+        None => Scene::load(Path::new(name)),
+    }
+}
+
+/// Printing that reports a closed pipe or a full disk instead of panicking.
+fn print_line(line: &str) -> anyhow::Result<()> {
+    Ok(writeln!(io::stdout(), "{line}")?)
+}
+
+fn print_json(value: &impl Serialize) -> anyhow::Result<()> {
+    print_line(&serde_json::to_string(value)?)
+}
+
+/// 2 where the input is at fault, 130 after Ctrl-C, else 1.
+pub fn exit_code(error: &anyhow::Error) -> u8 {
+    let is_input_error = error.chain().any(|cause| {
+        cause.downcast_ref().is_some_and(SceneError::is_input_error)
+            || cause.downcast_ref().is_some_and(FrameError::is_input_error)
+            || cause.downcast_ref().is_some_and(GpuError::is_input_error)
+            || cause.downcast_ref().is_some_and(TracerError::is_input_error)
+            || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
+    });
+    if matches!(error.downcast_ref(), Some(TracerError::Stopped)) {
+        interrupt::EXIT_CODE
+    } else if is_input_error {
+        2
+    } else {
+        1
+    }
+}

@@ -12,6 +12,28 @@ pub struct SceneError {
     pub line: Option<usize>,
     /// Names the primitive, the field, the value and the rule, as far as they apply.
     pub what: String,
+    pub(super) cause: SceneErrorCause,
+}
+
+/// Who is at fault.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum SceneErrorCause {
+    /// The scene, or a file that cannot be read as one.
+    Input,
+    /// Whatever kept a valid scene from being written.
+    Disk,
+}
+
+impl SceneError {
+    /// A fault of the input whose place is not known yet.
+    pub(super) fn refused(what: String) -> Self {
+        Self { path: None, line: None, what, cause: SceneErrorCause::Input }
+    }
+
+    /// Whether the scene or its file is at fault, not the machine.
+    pub fn is_input_error(&self) -> bool {
+        self.cause == SceneErrorCause::Input
+    }
 }
 
 fn origin(path: &Option<PathBuf>, line: &Option<usize>) -> String {

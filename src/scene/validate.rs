@@ -32,7 +32,7 @@ const NOT_ZERO: &str = "must not be zero";
 impl Scene {
     /// Checks every rule. Loading does it too; programs that build or edit a scene in memory call it themselves.
     pub fn validate(&self) -> Result<(), SceneError> {
-        check(self).map_err(|violation| SceneError { path: None, line: None, what: violation.to_string() })
+        check(self).map_err(|violation| SceneError::refused(violation.to_string()))
     }
 }
 

@@ -9,8 +9,10 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 use self::tree::{Document, Node};
+use super::error::SceneErrorCause;
 use super::validate::{self, Place, Violation};
 use super::{Scene, SceneError};
+use crate::whole_file::WholeFile;
 
 /// The two kinds of scene file; the extension decides.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,7 +32,7 @@ impl Scene {
     /// Reads a `.toml` or `.json` file; the scene is valid.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let in_file = |error: SceneError| SceneError { path: Some(path.to_owned()), ..error };
-        let (format, source) = read(path).map_err(|what| in_file(refusal(what)))?;
+        let (format, source) = read(path).map_err(|what| in_file(SceneError::refused(what)))?;
         format.decode(&source).map_err(in_file)
     }
 
@@ -48,13 +50,16 @@ impl Scene {
     pub fn save(&self, path: &Path) -> Result<(), SceneError> {
         let in_file = |error: SceneError| SceneError { path: Some(path.to_owned()), ..error };
         self.validate().map_err(in_file)?;
-        let format = Format::of(path).map_err(|what| in_file(refusal(what)))?;
+        let format = Format::of(path).map_err(|what| in_file(SceneError::refused(what)))?;
         let text = match format {
             Format::Toml => self.to_toml(),
             Format::Json => self.to_json(),
         };
-        format.check_size(text.len() as u64).map_err(|what| in_file(refusal(what)))?;
-        replace(path, text.as_bytes()).map_err(|error| in_file(refusal(format!("could not be written: {error}"))))
+        format.check_size(text.len() as u64).map_err(|what| in_file(SceneError::refused(what)))?;
+        write(path, text.as_bytes()).map_err(|error| SceneError {
+            cause: SceneErrorCause::Disk,
+            ..in_file(SceneError::refused(format!("could not be written: {error}")))
+        })
     }
 }
 
@@ -85,17 +90,16 @@ impl Format {
     }
 
     fn decode(self, source: &str) -> Result<Scene, SceneError> {
-        self.check_size(source.len() as u64).map_err(refusal)?;
+        self.check_size(source.len() as u64).map_err(SceneError::refused)?;
         // Some editors put a byte order mark before UTF-8.
         let source = source.strip_prefix('\u{feff}').unwrap_or(source);
         let decoded = match self {
-            Self::Toml => on_a_large_stack(|| self.decode_bare(source)).map_err(refusal)?,
+            Self::Toml => on_a_large_stack(|| self.decode_bare(source)).map_err(SceneError::refused)?,
             Self::Json => self.decode_bare(source),
         };
         decoded.map_err(|fault| SceneError {
-            path: None,
             line: Some(1 + source.bytes().take(fault.offset).filter(|&byte| byte == b'\n').count()),
-            what: fault.what,
+            ..SceneError::refused(fault.what)
         })
     }
 
@@ -141,10 +145,6 @@ fn locate<'t>(root: Node<'t>, violation: &Violation<'_>) -> Node<'t> {
     node
 }
 
-fn refusal(what: String) -> SceneError {
-    SceneError { path: None, line: None, what }
-}
-
 fn read(path: &Path) -> Result<(Format, String), String> {
     let unreadable = |error: io::Error| format!("could not be read: {error}");
     let metadata = fs::metadata(path).map_err(unreadable)?;
@@ -165,23 +165,8 @@ fn read(path: &Path) -> Result<(Format, String), String> {
     Ok((format, source))
 }
 
-/// Puts `content` in place of the file at `path`: what stands there stays until the new file is on the disk.
-fn replace(path: &Path, content: &[u8]) -> io::Result<()> {
-    // A link keeps pointing to the file that it pointed to.
-    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".zerkalo-");
-    let old = fs::metadata(&path).ok().map(|metadata| metadata.permissions());
-    // A temporary file is for its owner alone unless told otherwise; the process's umask still applies to this.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(content)?;
-    if let Some(old) = old {
-        file.as_file().set_permissions(old)?;
-    }
-    file.as_file().sync_all()?;
-    file.persist(&path)?;
-    Ok(())
+fn write(path: &Path, content: &[u8]) -> io::Result<()> {
+    let mut file = WholeFile::create(path)?;
+    file.as_file_mut().write_all(content)?;
+    file.finish()
 }

@@ -1,5 +1,7 @@
-//! What the program draws when nothing else is asked for: the four solids on a floor before a tall mirror, lit from
-//! the side.
+//! What the program draws when nothing else is asked for: the four solids between two mirrors, lit from the side.
+//!
+//! One light, since the course's kernel knows only one; and mirrors that the camera sees at a slant, since that kernel's
+//! highlight is a headlight spot, which a mirror facing the camera would show as one white sheet.
 
 use glam::DVec3;
 
@@ -8,82 +10,79 @@ use crate::scene::{Camera, Light, Material, Primitive, Projection, Scene, Solid}
 pub(super) fn scene() -> Scene {
     Scene {
         camera: Camera {
-            position: DVec3::new(0.0, 2.6, -9.0),
-            direction: DVec3::new(0.0, -0.16, 1.0),
+            position: DVec3::new(0.0, 2.7, -9.5),
+            direction: DVec3::new(0.0, -0.15, 1.0),
             up: DVec3::Y,
-            vertical_fov_degrees: 38.0,
+            vertical_fov_degrees: 36.0,
             projection: Projection::Centered,
         },
         background: DVec3::new(0.06, 0.09, 0.14),
         max_depth: 8,
-        lights: vec![
-            Light { position: DVec3::new(-7.0, 5.0, -4.0), intensity: DVec3::new(0.9, 0.88, 0.82) },
-            Light { position: DVec3::new(6.0, 7.0, -6.0), intensity: DVec3::new(0.2, 0.24, 0.32) },
-        ],
+        lights: vec![Light { position: DVec3::new(7.0, 6.5, -5.0), intensity: DVec3::new(1.0, 0.97, 0.9) }],
         primitives: vec![
-            Primitive {
-                name: Some("floor".into()),
-                solid: Solid::Box {
-                    center: DVec3::new(0.0, -0.1, 2.0),
-                    half_size: DVec3::new(14.0, 0.1, 9.0),
+            named(
+                "floor",
+                Solid::Box {
+                    center: DVec3::new(0.0, -0.1, 1.0),
+                    half_size: DVec3::new(16.0, 0.1, 10.0),
                     rotation_degrees: DVec3::ZERO,
                 },
-                material: solid_colour(DVec3::new(0.5, 0.52, 0.56), 0.15),
-            },
-            Primitive {
-                name: Some("mirror wall".into()),
-                solid: Solid::Box {
-                    center: DVec3::new(0.0, 2.6, 6.0),
-                    half_size: DVec3::new(5.5, 2.6, 0.05),
-                    rotation_degrees: DVec3::new(0.0, 8.0, 0.0),
-                },
-                material: mirror(DVec3::new(0.8, 0.85, 0.9)),
-            },
-            Primitive {
-                name: Some("mirror ball".into()),
-                solid: Solid::Sphere { center: DVec3::new(-0.4, 1.3, 2.2), radius: 1.3 },
-                material: mirror(DVec3::new(0.9, 0.9, 0.95)),
-            },
-            Primitive {
-                name: Some("blue ball".into()),
-                solid: Solid::Sphere { center: DVec3::new(-1.5, 0.45, -1.8), radius: 0.45 },
-                material: solid_colour(DVec3::new(0.15, 0.3, 0.9), 0.3),
-            },
-            Primitive {
-                name: Some("red cube".into()),
-                solid: Solid::Box {
-                    center: DVec3::new(-3.4, 0.9, 0.6),
+                Material { color: DVec3::new(0.5, 0.52, 0.56), ambient: 0.1, diffuse: 0.6, specular: 0.25 },
+            ),
+            named("left mirror", mirror_wall(4.9, -62.0), MIRROR),
+            named("right mirror", mirror_wall(-4.9, 62.0), MIRROR),
+            named(
+                "mirror ball",
+                Solid::Sphere { center: DVec3::new(0.0, 1.35, 2.4), radius: 1.35 },
+                Material { color: DVec3::new(0.9, 0.9, 0.95), ambient: 0.03, diffuse: 0.15, specular: 0.6 },
+            ),
+            named(
+                "blue ball",
+                Solid::Sphere { center: DVec3::new(-1.5, 0.55, -1.9), radius: 0.55 },
+                painted(DVec3::new(0.12, 0.3, 0.95)),
+            ),
+            named(
+                "red cube",
+                Solid::Box {
+                    center: DVec3::new(-3.5, 0.9, 0.4),
                     half_size: DVec3::splat(0.9),
-                    rotation_degrees: DVec3::new(0.0, 32.0, 0.0),
+                    rotation_degrees: DVec3::new(0.0, 30.0, 0.0),
                 },
-                material: solid_colour(DVec3::new(0.85, 0.16, 0.12), 0.2),
-            },
-            Primitive {
-                name: Some("yellow roller".into()),
-                solid: Solid::Cylinder {
-                    ends: [DVec3::new(2.1, 0.65, -0.3), DVec3::new(4.3, 0.65, 0.7)],
-                    radius: 0.65,
-                },
-                material: solid_colour(DVec3::new(0.95, 0.65, 0.1), 0.2),
-            },
-            Primitive {
-                name: Some("green cone".into()),
-                solid: Solid::Cone {
-                    apex: DVec3::new(0.9, 1.7, -1.6),
+                painted(DVec3::new(0.9, 0.14, 0.1)),
+            ),
+            named(
+                "yellow roller",
+                Solid::Cylinder { ends: [DVec3::new(2.3, 0.7, -0.6), DVec3::new(4.6, 0.7, 0.7)], radius: 0.7 },
+                painted(DVec3::new(1.0, 0.68, 0.1)),
+            ),
+            named(
+                "green cone",
+                Solid::Cone {
+                    apex: DVec3::new(0.8, 1.9, -1.5),
                     axis: DVec3::NEG_Y,
-                    height: 1.7,
+                    height: 1.9,
                     half_angle_degrees: 24.0,
                 },
-                material: solid_colour(DVec3::new(0.1, 0.6, 0.35), 0.2),
-            },
+                painted(DVec3::new(0.1, 0.65, 0.35)),
+            ),
         ],
     }
 }
 
-fn solid_colour(color: DVec3, specular: f64) -> Material {
-    Material { color, ambient: 0.08, diffuse: 0.75, specular }
+const MIRROR: Material = Material { color: DVec3::new(0.8, 0.85, 0.9), ambient: 0.03, diffuse: 0.06, specular: 0.65 };
+
+fn mirror_wall(x: f64, turn_degrees: f64) -> Solid {
+    Solid::Box {
+        center: DVec3::new(x, 2.3, 3.6),
+        half_size: DVec3::new(3.4, 2.3, 0.05),
+        rotation_degrees: DVec3::new(0.0, turn_degrees, 0.0),
+    }
 }
 
-fn mirror(color: DVec3) -> Material {
-    Material { color, ambient: 0.02, diffuse: 0.08, specular: 0.88 }
+fn painted(color: DVec3) -> Material {
+    Material { color, ambient: 0.12, diffuse: 0.8, specular: 0.2 }
+}
+
+fn named(name: &str, solid: Solid, material: Material) -> Primitive {
+    Primitive { name: Some(name.to_owned()), solid, material }
 }

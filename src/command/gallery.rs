@@ -1,0 +1,24 @@
+//! `zerkalo gallery`: the scenes that come with the program.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use clap::Args;
+
+use super::print_line;
+use crate::scene::gallery;
+
+/// List the ready scenes, or write them as files
+#[derive(Debug, Clone, Args)]
+pub struct GalleryArgs {
+    /// Write every scene to DIR/NAME.toml
+    #[arg(long, value_name = "DIR")]
+    pub write: Option<PathBuf>,
+}
+
+pub fn run(args: &GalleryArgs) -> Result<()> {
+    if let Some(folder) = &args.write {
+        return Ok(gallery::write_all(folder)?);
+    }
+    gallery::entries().iter().try_for_each(|entry| print_line(&format!("{:16} {}", entry.name, entry.english)))
+}

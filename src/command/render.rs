@@ -1,0 +1,210 @@
+//! `zerkalo render SCENE -o OUT`: one picture into a file, timed.
+
+use std::num::NonZeroU32;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+
+use anyhow::Result;
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde::Serialize;
+
+use super::{DeviceArgs, interrupt, print_json, scene_named};
+use crate::frame::Frame;
+use crate::gpu::{Device, DeviceDescription, Message, Validation};
+use crate::scene::DEPTH_LIMIT;
+use crate::tracer::{Settings, Tracer};
+
+/// Which of the program's tracers draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kernel {
+    /// The course work's, quirks and all
+    #[default]
+    Course,
+}
+
+/// Render a scene into a PNG (display values) or EXR (linear values) file
+#[derive(Debug, Clone, Args)]
+pub struct RenderArgs {
+    /// A scene file (.toml, .json) or a name of `zerkalo gallery`
+    pub scene: String,
+    /// The picture to write: .png or .exr
+    #[arg(short, long, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Pixels, each side 1 to 16384
+    #[arg(long, value_name = "WxH", default_value = "1621x701", value_parser = parse_size)]
+    pub size: (u32, u32),
+    #[arg(long, value_enum, default_value_t)]
+    pub kernel: Kernel,
+    /// Generations of a ray, in place of the scene's
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT)))]
+    pub max_depth: Option<u32>,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    /// Render once to warm up, then N times, and report the median GPU time
+    #[arg(long, value_name = "N")]
+    pub repeat: Option<NonZeroU32>,
+    /// Run under core, synchronization and GPU-assisted validation; any message is a failure
+    #[arg(long)]
+    pub validate: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl RenderArgs {
+    /// `zerkalo` without a word: the showcase into `zerkalo.png`.
+    pub fn showcase() -> Self {
+        Self {
+            scene: "showcase".to_owned(),
+            output: PathBuf::from("zerkalo.png"),
+            size: (1621, 701),
+            kernel: Kernel::default(),
+            max_depth: None,
+            device: DeviceArgs::from_environment(),
+            repeat: None,
+            validate: false,
+            json: false,
+        }
+    }
+}
+
+fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let sides = text.split_once(['x', 'X', '×']);
+    let size = sides.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    let (width, height) = size.ok_or("it must be WIDTHxHEIGHT in pixels, such as 1621x701")?;
+    Frame::check_size(width, height).map_err(|error| error.to_string())?;
+    Ok((width, height))
+}
+
+/// What `--json` prints.
+#[derive(Debug, Serialize)]
+struct Report<'a> {
+    width: u32,
+    height: u32,
+    kernel: Kernel,
+    device: &'a str,
+    driver: &'a str,
+    /// Median of `samples_ns`; null where the device has no timestamps.
+    gpu_time_ns: Option<u64>,
+    /// GPU time of each repeat, in order; without `--repeat` of the one, cold, render.
+    samples_ns: Vec<u64>,
+    validation_messages: usize,
+}
+
+/// Renders, saves, reports. Fails after saving when validation had anything to say.
+pub fn run(args: &RenderArgs) -> Result<()> {
+    Frame::check_output_path(&args.output)?;
+    let scene = scene_named(&args.scene)?;
+    let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
+    let device = Device::open(args.device.device.as_deref(), validation)?;
+    let description = device.description().clone();
+    let messages = device.messages().clone();
+
+    let mut tracer = Tracer::new(&device, &scene, &settings(args))?;
+    let (frame, samples_ns) = render(&mut tracer, args.repeat)?;
+    // Destroyed before the messages are counted: the layers check that too.
+    drop((tracer, device));
+    frame.save(&args.output)?;
+
+    report(args, &description, samples_ns, messages.count())?;
+    refuse_messages(&messages.to_vec())
+}
+
+fn settings(args: &RenderArgs) -> Settings {
+    Settings { max_depth: args.max_depth, ..Settings::new(args.size.0, args.size.1) }
+}
+
+/// The frame and the GPU time of every measured render.
+fn render(tracer: &mut Tracer, repeat: Option<NonZeroU32>) -> Result<(Frame, Vec<u64>)> {
+    let warm_ups = u64::from(repeat.is_some());
+    let measured = repeat.map_or(1, |repeat| u64::from(repeat.get()));
+    let mut frame = tracer.frame()?;
+    let frame_pixels = u64::from(frame.width()) * u64::from(frame.height());
+    let bar = progress_bar(frame_pixels * (warm_ups + measured));
+
+    let mut samples_ns = Vec::new();
+    for index in 0..warm_ups + measured {
+        let gpu_time_ns = tracer.render(&mut frame, &mut |pixels_done| {
+            bar.set_position(index * frame_pixels + pixels_done);
+            if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        })?;
+        if index >= warm_ups {
+            samples_ns.extend(gpu_time_ns);
+        }
+    }
+    bar.finish_and_clear();
+    Ok((frame, samples_ns))
+}
+
+/// Drawn on a terminal only.
+fn progress_bar(pixels: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (about {eta} left)");
+    ProgressBar::new(pixels).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn report(
+    args: &RenderArgs,
+    device: &DeviceDescription,
+    samples_ns: Vec<u64>,
+    validation_messages: usize,
+) -> Result<()> {
+    let gpu_time_ns = median(&samples_ns);
+    let (width, height) = args.size;
+    if args.json {
+        let (device, driver) = (&device.name, &device.driver);
+        let kernel = args.kernel;
+        return print_json(&Report {
+            width,
+            height,
+            kernel,
+            device,
+            driver,
+            gpu_time_ns,
+            samples_ns,
+            validation_messages,
+        });
+    }
+    let time =
+        gpu_time_ns.map_or("GPU time unknown".to_owned(), |time| format!("{:.2} ms GPU time", time as f64 / 1e6));
+    let of = if args.repeat.is_some() { format!(", median of {}", samples_ns.len()) } else { ", cold".to_owned() };
+    super::print_line(&format!("{}: {width}x{height} on {}, {time}{of}", args.output.display(), device.name))
+}
+
+fn refuse_messages(messages: &[Message]) -> Result<()> {
+    for message in messages {
+        eprintln!("{}: {}", message.id, message.text);
+    }
+    if messages.is_empty() { Ok(()) } else { Err(super::ValidationFailed { count: messages.len() }.into()) }
+}
+
+/// The middle of the sorted samples; of two middles, their mean.
+fn median(samples_ns: &[u64]) -> Option<u64> {
+    let mut sorted = samples_ns.to_vec();
+    sorted.sort_unstable();
+    let (low, high) = (sorted.len().checked_sub(1)? / 2, sorted.len() / 2);
+    Some(sorted[low].midpoint(sorted[high]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn median_is_the_middle_or_the_mean_of_two() {
+        assert_eq!(median(&[]), None);
+        assert_eq!(median(&[7]), Some(7));
+        assert_eq!(median(&[9, 1, 5]), Some(5));
+        assert_eq!(median(&[1, 2, 8, 100]), Some(5));
+    }
+
+    #[test]
+    fn sizes_are_two_sides_within_the_limits() {
+        assert_eq!(parse_size("1621x701"), Ok((1621, 701)));
+        assert_eq!(parse_size("1X16384"), Ok((1, 16384)));
+        for bad in ["", "x", "10", "10x", "0x5", "5x0", "16385x1", "-1x5", "1.5x2", "99999999999x1", "1x2x3"] {
+            assert!(parse_size(bad).is_err(), "{bad}");
+        }
+    }
+}

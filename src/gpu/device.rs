@@ -1,0 +1,101 @@
+use std::ffi::CString;
+use std::sync::{Arc, Mutex};
+
+use ash::{ext, vk};
+use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
+
+use super::error::GpuError;
+use super::instance::Instance;
+use super::physical::{Candidate, DeviceDescription};
+use super::pipeline_cache::PipelineCache;
+
+/// A logical device with its one queue, its memory and its pipeline cache.
+///
+/// Every object made from it holds it by `Arc`, so it is destroyed last.
+pub struct Device {
+    pub(super) raw: ash::Device,
+    pub(super) queue: vk::Queue,
+    pub(super) queue_family: u32,
+    pub(super) timestamp_valid_bits: u32,
+    pub(super) timestamp_period_ns: f32,
+    pub(super) description: DeviceDescription,
+    pub(super) cache: PipelineCache,
+    names: Option<ext::debug_utils::Device>,
+    // Always there until `drop` takes it: it must go before the device itself.
+    allocator: Option<Mutex<Allocator>>,
+    pub(super) instance: Instance,
+}
+
+impl Device {
+    pub(super) fn new(instance: Instance, candidate: Candidate) -> Result<Arc<Self>, GpuError> {
+        let name = candidate.description.name.clone();
+        let queue_info =
+            vk::DeviceQueueCreateInfo::default().queue_family_index(candidate.queue_family).queue_priorities(&[1.0]);
+        let queue_infos = [queue_info];
+        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queue_infos);
+        // SAFETY: `candidate` was listed by this instance and has the queue family; `info` lives through the call.
+        let raw = unsafe { instance.raw.create_device(candidate.raw, &info, None) }
+            .map_err(GpuError::call(|| format!("open device '{name}'")))?;
+        // SAFETY: the device was just created with one queue of that family.
+        let queue = unsafe { raw.get_device_queue(candidate.queue_family, 0) };
+
+        // From here on `Drop` frees what is there when a later step fails.
+        let names = instance.has_debug_utils.then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
+        let mut device = Self {
+            cache: PipelineCache::new(&raw, candidate.cache_identity),
+            raw,
+            queue,
+            queue_family: candidate.queue_family,
+            timestamp_valid_bits: candidate.timestamp_valid_bits,
+            timestamp_period_ns: candidate.timestamp_period_ns,
+            description: candidate.description,
+            names,
+            allocator: None,
+            instance,
+        };
+        let allocator = Allocator::new(&AllocatorCreateDesc {
+            instance: device.instance.raw.clone(),
+            device: device.raw.clone(),
+            physical_device: candidate.raw,
+            debug_settings: Default::default(),
+            buffer_device_address: false,
+            allocation_sizes: Default::default(),
+        })
+        .map_err(|source| GpuError::Allocation { object: format!("device '{name}'"), bytes: 0, source })?;
+        device.allocator = Some(Mutex::new(allocator));
+        device.set_name(queue, "queue");
+        Ok(Arc::new(device))
+    }
+
+    /// The name that validation messages, RenderDoc and profilers show. A failure only costs the name.
+    pub(super) fn set_name<T: vk::Handle>(&self, object: T, name: &str) {
+        let (Some(names), Ok(name)) = (&self.names, CString::new(name)) else { return };
+        let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&name);
+        // SAFETY: `object` is alive and was made from this device.
+        let _ = unsafe { names.set_debug_utils_object_name(&info) };
+    }
+
+    /// Debug-label functions, where the loader offers them.
+    pub(super) fn labels(&self) -> Option<&ext::debug_utils::Device> {
+        self.names.as_ref()
+    }
+
+    pub(super) fn with_allocator<R>(&self, work: impl FnOnce(&mut Allocator) -> R) -> R {
+        // invariant: `new` sets it before the device is shared, and only `drop` takes it.
+        let allocator = self.allocator.as_ref().expect("the allocator lives as long as the device");
+        work(&mut allocator.lock().unwrap_or_else(std::sync::PoisonError::into_inner))
+    }
+}
+
+impl Drop for Device {
+    fn drop(&mut self) {
+        // SAFETY: every object holds the device alive, so none is left, and waiting ends all work.
+        unsafe {
+            // A lost device cannot be waited for; destroying it is still right.
+            let _ = self.raw.device_wait_idle();
+            self.cache.destroy(&self.raw);
+            drop(self.allocator.take());
+            self.raw.destroy_device(None);
+        }
+    }
+}

@@ -1,0 +1,66 @@
+use ash::vk;
+
+/// What went wrong between the program and a Vulkan device. Each is one line.
+#[derive(Debug, thiserror::Error)]
+pub enum GpuError {
+    #[error(
+        "no Vulkan loader found ({0}); install it (Debian, Ubuntu: libvulkan1) with a driver (mesa-vulkan-drivers)"
+    )]
+    NoLoader(ash::LoadingError),
+
+    #[error(
+        "no Vulkan driver found; install one (Debian, Ubuntu: mesa-vulkan-drivers, which also serves machines without a GPU)"
+    )]
+    NoDriver,
+
+    #[error("the Vulkan loader offers only version {0}, and 1.2 is needed; update it (Debian, Ubuntu: libvulkan1)")]
+    OldLoader(String),
+
+    #[error(
+        "validation was asked for, but the layer VK_LAYER_KHRONOS_validation is not installed (Debian, Ubuntu: vulkan-validationlayers)"
+    )]
+    NoValidationLayer,
+
+    /// No device has all that is needed; each is listed with all that it lacks.
+    #[error("no suitable Vulkan device: {0}")]
+    NoSuitableDevice(String),
+
+    /// The device asked for by name or number does not exist or lacks something.
+    #[error("device '{wanted}' cannot be used: {reason}; devices here: {listed}")]
+    WantedDevice { wanted: String, reason: String, listed: String },
+
+    /// A Vulkan call failed; `operation` names what was tried and on which object.
+    #[error("could not {operation}: {result:?}{}", hint(*.result))]
+    Call { operation: String, result: vk::Result },
+
+    #[error("could not allocate {bytes} B of device memory for {object}: {source}")]
+    Allocation { object: String, bytes: u64, source: gpu_allocator::AllocationError },
+
+    #[error("{object} cannot be mapped for reading or writing by the host")]
+    NotMapped { object: String },
+}
+
+impl GpuError {
+    /// For `map_err`: `.map_err(GpuError::call(|| format!("create buffer '{name}'")))`.
+    pub fn call<S: Into<String>>(operation: impl FnOnce() -> S) -> impl FnOnce(vk::Result) -> GpuError {
+        move |result| GpuError::Call { operation: operation().into(), result }
+    }
+
+    pub fn is_device_lost(&self) -> bool {
+        matches!(self, GpuError::Call { result: vk::Result::ERROR_DEVICE_LOST, .. })
+    }
+
+    /// Whether the user's choice is at fault rather than the machine.
+    pub fn is_input_error(&self) -> bool {
+        matches!(self, GpuError::WantedDevice { .. })
+    }
+}
+
+fn hint(result: vk::Result) -> &'static str {
+    match result {
+        vk::Result::ERROR_DEVICE_LOST => " (the device was reset or removed; see the system's log, and try again)",
+        vk::Result::ERROR_OUT_OF_DEVICE_MEMORY => " (the device's memory is full)",
+        vk::Result::ERROR_OUT_OF_HOST_MEMORY => " (the machine's memory is full)",
+        _ => "",
+    }
+}

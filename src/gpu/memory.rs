@@ -1,0 +1,229 @@
+//! Buffers and images with their memory.
+
+use std::sync::Arc;
+
+use ash::vk;
+use gpu_allocator::MemoryLocation;
+use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
+
+use super::device::Device;
+use super::error::GpuError;
+use super::hazards::ResourceId;
+
+/// What a buffer is for; decides its usage flags and its memory.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BufferKind {
+    /// Written by the host, read by shaders as a uniform block.
+    Uniform,
+    /// Written by the host before, by shaders after; read back by the host.
+    Storage,
+    /// Written by copies, read by the host.
+    Readback,
+}
+
+impl BufferKind {
+    fn usage(self) -> vk::BufferUsageFlags {
+        match self {
+            Self::Uniform => vk::BufferUsageFlags::UNIFORM_BUFFER,
+            Self::Storage => vk::BufferUsageFlags::STORAGE_BUFFER,
+            Self::Readback => vk::BufferUsageFlags::TRANSFER_DST,
+        }
+    }
+
+    fn location(self) -> MemoryLocation {
+        match self {
+            Self::Uniform => MemoryLocation::CpuToGpu,
+            Self::Storage | Self::Readback => MemoryLocation::GpuToCpu,
+        }
+    }
+
+    /// Whether the host reads what the device wrote.
+    pub(super) fn is_read_by_host(self) -> bool {
+        matches!(self, Self::Storage | Self::Readback)
+    }
+}
+
+/// A buffer that the host has mapped.
+pub struct Buffer {
+    pub(super) raw: vk::Buffer,
+    pub(super) name: String,
+    pub(super) kind: BufferKind,
+    pub(super) id: ResourceId,
+    /// Bytes.
+    size: u64,
+    allocation: Option<Allocation>,
+    device: Arc<Device>,
+}
+
+impl Buffer {
+    /// A buffer of `size` bytes, at least one.
+    pub fn new(device: &Arc<Device>, name: &str, kind: BufferKind, size: u64) -> Result<Self, GpuError> {
+        let info = vk::BufferCreateInfo::default().size(size.max(1)).usage(kind.usage());
+        // SAFETY: the device is alive.
+        let raw = unsafe { device.raw.create_buffer(&info, None) }
+            .map_err(GpuError::call(|| format!("create buffer '{name}' ({size} B)")))?;
+        // Dropped, and so freed, by any failure below.
+        let mut buffer = Self {
+            raw,
+            name: name.to_owned(),
+            kind,
+            id: ResourceId::fresh(),
+            size,
+            allocation: None,
+            device: device.clone(),
+        };
+        device.set_name(raw, name);
+        // SAFETY: the buffer was made from this device.
+        let requirements = unsafe { device.raw.get_buffer_memory_requirements(raw) };
+        let allocation = allocate(device, &format!("buffer '{name}'"), requirements, kind.location(), true)?;
+        // SAFETY: the memory is fresh, large enough by its requirements, and lives until the buffer is destroyed.
+        unsafe { device.raw.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) }
+            .map_err(GpuError::call(|| format!("bind the memory of buffer '{name}'")))?;
+        buffer.allocation = Some(allocation);
+        Ok(buffer)
+    }
+
+    pub fn size(&self) -> u64 {
+        self.size
+    }
+
+    /// Copies `bytes` to the buffer's start. The device must not be using the buffer.
+    pub fn write(&mut self, bytes: &[u8]) -> Result<(), GpuError> {
+        let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
+        let mapped = mapped.ok_or_else(|| GpuError::NotMapped { object: format!("buffer '{}'", self.name) })?;
+        mapped[..bytes.len()].copy_from_slice(bytes);
+        Ok(())
+    }
+
+    /// The buffer's bytes. A submission that wrote them must have been waited for.
+    pub fn bytes(&self) -> Result<&[u8], GpuError> {
+        let mapped = self.allocation.as_ref().and_then(Allocation::mapped_slice);
+        let mapped = mapped.ok_or_else(|| GpuError::NotMapped { object: format!("buffer '{}'", self.name) })?;
+        Ok(&mapped[..self.size as usize])
+    }
+}
+
+impl Drop for Buffer {
+    fn drop(&mut self) {
+        free(&self.device, self.allocation.take());
+        // SAFETY: submissions are waited for before their resources can be dropped.
+        unsafe { self.device.raw.destroy_buffer(self.raw, None) };
+    }
+}
+
+/// A two-dimensional `rgba32f` image that kernels write.
+pub struct StorageImage {
+    pub(super) raw: vk::Image,
+    pub(super) view: vk::ImageView,
+    pub(super) name: String,
+    pub(super) id: ResourceId,
+    pub(super) extent: vk::Extent2D,
+    allocation: Option<Allocation>,
+    device: Arc<Device>,
+}
+
+impl StorageImage {
+    /// Bytes of one `rgba32f` pixel.
+    pub const PIXEL_BYTES: u64 = 16;
+    /// Every Vulkan device must offer this format for storage images.
+    const FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
+
+    pub fn new(device: &Arc<Device>, name: &str, width: u32, height: u32) -> Result<Self, GpuError> {
+        let info = vk::ImageCreateInfo::default()
+            .image_type(vk::ImageType::TYPE_2D)
+            .format(Self::FORMAT)
+            .extent(vk::Extent3D { width, height, depth: 1 })
+            .mip_levels(1)
+            .array_layers(1)
+            .samples(vk::SampleCountFlags::TYPE_1)
+            .tiling(vk::ImageTiling::OPTIMAL)
+            .usage(vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::TRANSFER_SRC);
+        // SAFETY: the device is alive.
+        let raw = unsafe { device.raw.create_image(&info, None) }
+            .map_err(GpuError::call(|| format!("create image '{name}' ({width}x{height})")))?;
+        // Dropped, and so freed, by any failure below.
+        let mut image = Self {
+            raw,
+            view: vk::ImageView::null(),
+            name: name.to_owned(),
+            id: ResourceId::fresh(),
+            extent: vk::Extent2D { width, height },
+            allocation: None,
+            device: device.clone(),
+        };
+        device.set_name(raw, name);
+        // SAFETY: the image was made from this device.
+        let requirements = unsafe { device.raw.get_image_memory_requirements(raw) };
+        let allocation = allocate(device, &format!("image '{name}'"), requirements, MemoryLocation::GpuOnly, false)?;
+        // SAFETY: as for a buffer.
+        unsafe { device.raw.bind_image_memory(raw, allocation.memory(), allocation.offset()) }
+            .map_err(GpuError::call(|| format!("bind the memory of image '{name}'")))?;
+        image.allocation = Some(allocation);
+
+        let info = vk::ImageViewCreateInfo::default()
+            .image(raw)
+            .view_type(vk::ImageViewType::TYPE_2D)
+            .format(Self::FORMAT)
+            .subresource_range(COLOR);
+        // SAFETY: the image is bound to memory.
+        image.view = unsafe { device.raw.create_image_view(&info, None) }
+            .map_err(GpuError::call(|| format!("create the view of image '{name}'")))?;
+        device.set_name(image.view, name);
+        Ok(image)
+    }
+
+    pub fn width(&self) -> u32 {
+        self.extent.width
+    }
+
+    pub fn height(&self) -> u32 {
+        self.extent.height
+    }
+}
+
+impl Drop for StorageImage {
+    fn drop(&mut self) {
+        // SAFETY: as for a buffer; a null view is ignored.
+        unsafe {
+            self.device.raw.destroy_image_view(self.view, None);
+            self.device.raw.destroy_image(self.raw, None);
+        }
+        free(&self.device, self.allocation.take());
+    }
+}
+
+pub(super) const COLOR: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
+    aspect_mask: vk::ImageAspectFlags::COLOR,
+    base_mip_level: 0,
+    level_count: 1,
+    base_array_layer: 0,
+    layer_count: 1,
+};
+
+fn allocate(
+    device: &Device,
+    object: &str,
+    requirements: vk::MemoryRequirements,
+    location: MemoryLocation,
+    linear: bool,
+) -> Result<Allocation, GpuError> {
+    let description = AllocationCreateDesc {
+        name: object,
+        requirements,
+        location,
+        linear,
+        allocation_scheme: AllocationScheme::GpuAllocatorManaged,
+    };
+    device.with_allocator(|allocator| allocator.allocate(&description)).map_err(|source| GpuError::Allocation {
+        object: object.to_owned(),
+        bytes: requirements.size,
+        source,
+    })
+}
+
+fn free(device: &Device, allocation: Option<Allocation>) {
+    if let Some(allocation) = allocation {
+        // It fails only for an allocation of another allocator.
+        let _ = device.with_allocator(|allocator| allocator.free(allocation));
+    }
+}

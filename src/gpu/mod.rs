@@ -1,0 +1,58 @@
+//! Vulkan, and nothing of rays: devices, memory, pipelines, commands, timers and validation messages.
+//!
+//! Every Vulkan object is made in one place, freed by its owner's `Drop`, and has a debug name.
+
+mod commands;
+mod device;
+mod error;
+mod hazards;
+mod instance;
+mod memory;
+mod messages;
+mod physical;
+mod pipeline;
+mod pipeline_cache;
+pub mod shaders;
+mod timer;
+
+use std::sync::Arc;
+
+pub use commands::{Commands, Recorder};
+pub use device::Device;
+pub use error::GpuError;
+pub use hazards::Use;
+pub use instance::{Instance, Validation};
+pub use memory::{Buffer, BufferKind, StorageImage};
+pub use messages::{Message, Messages};
+pub use physical::{DeviceDescription, DeviceKind, choose};
+pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
+pub use timer::Timer;
+
+/// Every device of the machine, usable or not, in the loader's order.
+pub fn devices() -> Result<Vec<DeviceDescription>, GpuError> {
+    let instance = Instance::new(Validation::Off)?;
+    Ok(physical::list(&instance)?.into_iter().map(|candidate| candidate.description).collect())
+}
+
+impl Device {
+    /// Opens the device `wanted`, a number or part of a name, or the best one.
+    ///
+    /// # Errors
+    /// No loader, driver, layer or suitable device; see [`choose`].
+    pub fn open(wanted: Option<&str>, validation: Validation) -> Result<Arc<Self>, GpuError> {
+        let instance = Instance::new(validation)?;
+        let mut candidates = physical::list(&instance)?;
+        let descriptions: Vec<_> = candidates.iter().map(|candidate| candidate.description.clone()).collect();
+        let index = choose(&descriptions, wanted)?;
+        Device::new(instance, candidates.swap_remove(index))
+    }
+
+    pub fn description(&self) -> &DeviceDescription {
+        &self.description
+    }
+
+    /// What the validation layer and the recorder's hazard check have said so far.
+    pub fn messages(&self) -> &Messages {
+        &self.instance.messages
+    }
+}

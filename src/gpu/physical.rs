@@ -1,0 +1,231 @@
+//! The devices of the machine, what each lacks, and which one is taken.
+
+use std::ffi::CStr;
+
+use ash::vk;
+use serde::Serialize;
+
+use super::error::GpuError;
+use super::instance::{API_VERSION, Instance, version_text};
+
+/// Kind of device, best first: the order in which one is chosen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DeviceKind {
+    Discrete,
+    Integrated,
+    Virtual,
+    Cpu,
+    Other,
+}
+
+impl DeviceKind {
+    fn from_vulkan(kind: vk::PhysicalDeviceType) -> Self {
+        match kind {
+            vk::PhysicalDeviceType::DISCRETE_GPU => Self::Discrete,
+            vk::PhysicalDeviceType::INTEGRATED_GPU => Self::Integrated,
+            vk::PhysicalDeviceType::VIRTUAL_GPU => Self::Virtual,
+            vk::PhysicalDeviceType::CPU => Self::Cpu,
+            _ => Self::Other,
+        }
+    }
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Discrete => "discrete",
+            Self::Integrated => "integrated",
+            Self::Virtual => "virtual",
+            Self::Cpu => "cpu",
+            Self::Other => "other",
+        }
+    }
+}
+
+/// A device as people and programs are told of it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct DeviceDescription {
+    /// Place in the loader's list; what `--device INDEX` takes.
+    pub index: usize,
+    pub name: String,
+    pub kind: DeviceKind,
+    /// Driver name and version text, as the driver gives them.
+    pub driver: String,
+    pub api_version: String,
+    /// Whether GPU time can be measured.
+    pub timestamps: bool,
+    /// Largest picture side in one tile, pixels.
+    pub max_image_side: u32,
+    /// All that it lacks; empty when it can be used.
+    pub lacks: Vec<String>,
+}
+
+/// A physical device with the queue family to use.
+#[derive(Clone)]
+pub(super) struct Candidate {
+    pub raw: vk::PhysicalDevice,
+    pub description: DeviceDescription,
+    pub queue_family: u32,
+    pub timestamp_valid_bits: u32,
+    pub timestamp_period_ns: f32,
+    /// vendorID, deviceID, pipelineCacheUUID: what a pipeline cache is good for.
+    pub cache_identity: ([u32; 2], [u8; vk::UUID_SIZE]),
+}
+
+pub(super) fn list(instance: &Instance) -> Result<Vec<Candidate>, GpuError> {
+    // SAFETY: the instance is alive.
+    let devices =
+        unsafe { instance.raw.enumerate_physical_devices() }.map_err(GpuError::call(|| "list the Vulkan devices"))?;
+    Ok(devices.into_iter().enumerate().map(|(index, raw)| inspect(instance, index, raw)).collect())
+}
+
+fn inspect(instance: &Instance, index: usize, raw: vk::PhysicalDevice) -> Candidate {
+    // SAFETY: `raw` comes from this instance. The 1.2 structure is only chained where the device knows it.
+    let (properties, families, driver) = unsafe {
+        let properties = instance.raw.get_physical_device_properties(raw);
+        let families = instance.raw.get_physical_device_queue_family_properties(raw);
+        let driver = (properties.api_version >= vk::API_VERSION_1_2).then(|| {
+            let mut driver = vk::PhysicalDeviceDriverProperties::default();
+            let mut properties2 = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+            instance.raw.get_physical_device_properties2(raw, &mut properties2);
+            format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()))
+        });
+        (properties, families, driver)
+    };
+
+    let mut lacks = Vec::new();
+    if properties.api_version < API_VERSION {
+        lacks.push(format!("Vulkan 1.2 (it offers {})", version_text(properties.api_version)));
+    }
+    let queue_family = families.iter().position(|family| family.queue_flags.contains(vk::QueueFlags::COMPUTE));
+    if queue_family.is_none() {
+        lacks.push("a queue that can compute".to_owned());
+    }
+
+    let timestamp_valid_bits = queue_family.map_or(0, |family| families[family].timestamp_valid_bits);
+    Candidate {
+        raw,
+        description: DeviceDescription {
+            index,
+            name: text(properties.device_name_as_c_str()),
+            kind: DeviceKind::from_vulkan(properties.device_type),
+            driver: driver.unwrap_or_else(|| format!("version {:#x}", properties.driver_version)).trim().to_owned(),
+            api_version: version_text(properties.api_version),
+            timestamps: timestamp_valid_bits > 0,
+            max_image_side: properties.limits.max_image_dimension2_d,
+            lacks,
+        },
+        queue_family: queue_family.unwrap_or(0) as u32,
+        timestamp_valid_bits,
+        timestamp_period_ns: properties.limits.timestamp_period,
+        cache_identity: ([properties.vendor_id, properties.device_id], properties.pipeline_cache_uuid),
+    }
+}
+
+fn text<E>(name: Result<&CStr, E>) -> String {
+    name.map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// Index of the device to use.
+///
+/// `wanted` is a number of the list or part of a name, upper and lower case alike; without it the best kind wins,
+/// and the first of that kind.
+///
+/// # Errors
+/// Nothing fits; the error lists every device and all that each lacks.
+pub fn choose(devices: &[DeviceDescription], wanted: Option<&str>) -> Result<usize, GpuError> {
+    if devices.is_empty() {
+        return Err(GpuError::NoDriver);
+    }
+    let best = |fits: &dyn Fn(&DeviceDescription) -> bool| {
+        let usable = devices.iter().filter(|device| fits(device) && device.lacks.is_empty());
+        usable.min_by_key(|device| (device.kind, device.index)).map(|device| device.index)
+    };
+
+    let Some(wanted) = wanted else {
+        return best(&|_| true).ok_or_else(|| GpuError::NoSuitableDevice(listed(devices)));
+    };
+    let named = |device: &DeviceDescription| match wanted.trim().parse::<usize>() {
+        Ok(index) => device.index == index,
+        Err(_) => device.name.to_lowercase().contains(&wanted.trim().to_lowercase()),
+    };
+    best(&named).ok_or_else(|| GpuError::WantedDevice {
+        wanted: wanted.to_owned(),
+        reason: if devices.iter().any(named) { "it lacks something" } else { "there is no such device" }.to_owned(),
+        listed: listed(devices),
+    })
+}
+
+fn listed(devices: &[DeviceDescription]) -> String {
+    let line = |device: &DeviceDescription| {
+        let state =
+            if device.lacks.is_empty() { "usable".into() } else { format!("lacks {}", device.lacks.join(", ")) };
+        format!("{} '{}' ({}): {state}", device.index, device.name, device.kind.name())
+    };
+    devices.iter().map(line).collect::<Vec<_>>().join("; ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn device(index: usize, name: &str, kind: DeviceKind, lacks: &[&str]) -> DeviceDescription {
+        DeviceDescription {
+            index,
+            name: name.to_owned(),
+            kind,
+            driver: String::new(),
+            api_version: "1.2.0".to_owned(),
+            timestamps: true,
+            max_image_side: 16384,
+            lacks: lacks.iter().map(|&lack| lack.to_owned()).collect(),
+        }
+    }
+
+    fn machine() -> Vec<DeviceDescription> {
+        vec![
+            device(0, "llvmpipe", DeviceKind::Cpu, &[]),
+            device(1, "Iris Xe", DeviceKind::Integrated, &[]),
+            device(
+                2,
+                "GeForce Old",
+                DeviceKind::Discrete,
+                &["Vulkan 1.2 (it offers 1.1.0)", "a queue that can compute"],
+            ),
+            device(3, "Iris Pro", DeviceKind::Integrated, &[]),
+        ]
+    }
+
+    #[test]
+    fn best_usable_kind_wins_and_the_first_of_it() {
+        assert_eq!(choose(&machine(), None).unwrap(), 1);
+    }
+
+    #[test]
+    fn a_device_is_wanted_by_number_or_by_part_of_its_name() {
+        assert_eq!(choose(&machine(), Some("0")).unwrap(), 0);
+        assert_eq!(choose(&machine(), Some("LLVM")).unwrap(), 0);
+        assert_eq!(choose(&machine(), Some("iris")).unwrap(), 1);
+        assert_eq!(choose(&machine(), Some("iris pro")).unwrap(), 3);
+    }
+
+    #[test]
+    fn a_refusal_lists_every_device_and_all_that_each_lacks() {
+        for wanted in ["geforce", "2", "radeon", "9"] {
+            let error = choose(&machine(), Some(wanted)).unwrap_err();
+            assert!(error.is_input_error());
+            let line = error.to_string();
+            assert!(!line.contains('\n'));
+            for part in ["'llvmpipe' (cpu): usable", "Iris Xe", "Iris Pro", "Vulkan 1.2 (it offers 1.1.0), a queue"] {
+                assert!(line.contains(part), "{part} is missing in: {line}");
+            }
+        }
+        let error = choose(&machine()[2..3], None).unwrap_err().to_string();
+        assert!(error.contains("GeForce Old") && error.contains("a queue that can compute"), "{error}");
+    }
+
+    #[test]
+    fn a_machine_without_devices_has_no_driver() {
+        assert!(matches!(choose(&[], None), Err(GpuError::NoDriver)));
+        assert!(matches!(choose(&[], Some("0")), Err(GpuError::NoDriver)));
+    }
+}

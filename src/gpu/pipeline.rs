@@ -1,0 +1,258 @@
+//! Compute pipelines and what is bound to them.
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use super::device::Device;
+use super::error::GpuError;
+use super::hazards::{ResourceId, Use};
+use super::memory::{Buffer, StorageImage};
+use super::shaders::Shader;
+
+/// How a kernel uses one binding.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum BindingKind {
+    Uniform,
+    /// A storage buffer that is read, written or both.
+    Storage,
+    /// A storage image that is only written.
+    Picture,
+}
+
+impl BindingKind {
+    fn descriptor_type(self) -> vk::DescriptorType {
+        match self {
+            Self::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
+            Self::Storage => vk::DescriptorType::STORAGE_BUFFER,
+            Self::Picture => vk::DescriptorType::STORAGE_IMAGE,
+        }
+    }
+
+    fn use_(self) -> Use {
+        match self {
+            Self::Uniform => Use::ShaderRead,
+            Self::Storage | Self::Picture => Use::ShaderWrite,
+        }
+    }
+}
+
+/// What a pipeline is made from.
+pub struct PipelineDescription<'a> {
+    pub shader: &'a Shader,
+    /// Binding `i` of set 0.
+    pub bindings: &'a [BindingKind],
+    pub push_constant_bytes: u32,
+    /// Specialization constant `i`; every one is 4 bytes wide.
+    pub constants: &'a [u32],
+}
+
+/// A compute pipeline with its layouts.
+pub struct ComputePipeline {
+    pub(super) raw: vk::Pipeline,
+    pub(super) layout: vk::PipelineLayout,
+    pub(super) name: &'static str,
+    set_layout: vk::DescriptorSetLayout,
+    bindings: Vec<BindingKind>,
+    device: Arc<Device>,
+}
+
+impl ComputePipeline {
+    pub fn new(device: &Arc<Device>, description: &PipelineDescription) -> Result<Self, GpuError> {
+        let name = description.shader.name;
+        // Null handles until made; `Drop` ignores them, so a failure on the way leaks nothing.
+        let mut pipeline = Self {
+            raw: vk::Pipeline::null(),
+            layout: vk::PipelineLayout::null(),
+            name,
+            set_layout: vk::DescriptorSetLayout::null(),
+            bindings: description.bindings.to_vec(),
+            device: device.clone(),
+        };
+
+        let set_bindings: Vec<_> = (0..)
+            .zip(description.bindings)
+            .map(|(binding, kind)| {
+                vk::DescriptorSetLayoutBinding::default()
+                    .binding(binding)
+                    .descriptor_type(kind.descriptor_type())
+                    .descriptor_count(1)
+                    .stage_flags(vk::ShaderStageFlags::COMPUTE)
+            })
+            .collect();
+        let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&set_bindings);
+        // SAFETY: the device is alive; `info` lives through the call.
+        pipeline.set_layout = unsafe { device.raw.create_descriptor_set_layout(&info, None) }
+            .map_err(GpuError::call(|| format!("create the set layout of kernel '{name}'")))?;
+        device.set_name(pipeline.set_layout, name);
+
+        let set_layouts = [pipeline.set_layout];
+        let push_constants = [vk::PushConstantRange::default()
+            .stage_flags(vk::ShaderStageFlags::COMPUTE)
+            .size(description.push_constant_bytes)];
+        let mut info = vk::PipelineLayoutCreateInfo::default().set_layouts(&set_layouts);
+        if description.push_constant_bytes > 0 {
+            info = info.push_constant_ranges(&push_constants);
+        }
+        // SAFETY: as above.
+        pipeline.layout = unsafe { device.raw.create_pipeline_layout(&info, None) }
+            .map_err(GpuError::call(|| format!("create the layout of kernel '{name}'")))?;
+        device.set_name(pipeline.layout, name);
+
+        pipeline.raw = compile(device, description, pipeline.layout)?;
+        device.set_name(pipeline.raw, name);
+        device.cache.save(&device.raw);
+        Ok(pipeline)
+    }
+}
+
+impl Drop for ComputePipeline {
+    fn drop(&mut self) {
+        // SAFETY: submissions are waited for before a pipeline can be dropped; null handles are ignored.
+        unsafe {
+            self.device.raw.destroy_pipeline(self.raw, None);
+            self.device.raw.destroy_pipeline_layout(self.layout, None);
+            self.device.raw.destroy_descriptor_set_layout(self.set_layout, None);
+        }
+    }
+}
+
+fn compile(
+    device: &Device,
+    description: &PipelineDescription,
+    layout: vk::PipelineLayout,
+) -> Result<vk::Pipeline, GpuError> {
+    let name = description.shader.name;
+    let code = description.shader.words();
+    let info = vk::ShaderModuleCreateInfo::default().code(&code);
+    // SAFETY: the code is SPIR-V from build.rs.
+    let module = unsafe { device.raw.create_shader_module(&info, None) }
+        .map_err(GpuError::call(|| format!("load the code of kernel '{name}'")))?;
+    device.set_name(module, name);
+
+    let entries: Vec<_> = (0..)
+        .zip(description.constants)
+        .map(|(id, _)| vk::SpecializationMapEntry { constant_id: id, offset: id * 4, size: 4 })
+        .collect();
+    let specialization =
+        vk::SpecializationInfo::default().map_entries(&entries).data(bytemuck::cast_slice(description.constants));
+    let stage = vk::PipelineShaderStageCreateInfo::default()
+        .stage(vk::ShaderStageFlags::COMPUTE)
+        .module(module)
+        .name(c"main")
+        .specialization_info(&specialization);
+    let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout);
+    // SAFETY: module and layout are alive; the module may go once the pipeline stands.
+    let made = unsafe {
+        let made = device.raw.create_compute_pipelines(device.cache.raw, &[info], None);
+        device.raw.destroy_shader_module(module, None);
+        made
+    };
+    match made {
+        Ok(pipelines) => Ok(pipelines[0]),
+        Err((_, result)) => Err(GpuError::Call { operation: format!("compile kernel '{name}'"), result }),
+    }
+}
+
+/// A resource that can be bound.
+#[derive(Clone)]
+pub enum Resource {
+    Buffer(Arc<Buffer>),
+    Image(Arc<StorageImage>),
+}
+
+impl Resource {
+    pub(super) fn id(&self) -> ResourceId {
+        match self {
+            Self::Buffer(buffer) => buffer.id,
+            Self::Image(image) => image.id,
+        }
+    }
+
+    pub(super) fn name(&self) -> &str {
+        match self {
+            Self::Buffer(buffer) => &buffer.name,
+            Self::Image(image) => &image.name,
+        }
+    }
+}
+
+impl From<&Arc<Buffer>> for Resource {
+    fn from(buffer: &Arc<Buffer>) -> Self {
+        Self::Buffer(buffer.clone())
+    }
+}
+
+impl From<&Arc<StorageImage>> for Resource {
+    fn from(image: &Arc<StorageImage>) -> Self {
+        Self::Image(image.clone())
+    }
+}
+
+/// A descriptor set: the resources of one pipeline, kept alive with it.
+pub struct BindingSet {
+    pub(super) set: vk::DescriptorSet,
+    pub(super) uses: Vec<(Resource, Use)>,
+    pool: vk::DescriptorPool,
+    device: Arc<Device>,
+}
+
+impl BindingSet {
+    /// Binds `resources[i]` to binding `i` of `pipeline`; both lists have the same length and kinds.
+    pub fn new(pipeline: &ComputePipeline, resources: &[Resource]) -> Result<Self, GpuError> {
+        assert_eq!(resources.len(), pipeline.bindings.len(), "kernel '{}' binds other resources", pipeline.name);
+        let device = &pipeline.device;
+        let sizes: Vec<_> = pipeline
+            .bindings
+            .iter()
+            .map(|kind| vk::DescriptorPoolSize { ty: kind.descriptor_type(), descriptor_count: 1 })
+            .collect();
+        let info = vk::DescriptorPoolCreateInfo::default().max_sets(1).pool_sizes(&sizes);
+        // SAFETY: the device is alive.
+        let pool = unsafe { device.raw.create_descriptor_pool(&info, None) }
+            .map_err(GpuError::call(|| format!("create the descriptor pool of kernel '{}'", pipeline.name)))?;
+        // Dropped, and so freed, by a failure below; a set dies with its pool.
+        let mut binding_set = Self { set: vk::DescriptorSet::null(), uses: Vec::new(), pool, device: device.clone() };
+        device.set_name(pool, pipeline.name);
+
+        let set_layouts = [pipeline.set_layout];
+        let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&set_layouts);
+        // SAFETY: the pool has room for exactly this set.
+        let sets = unsafe { device.raw.allocate_descriptor_sets(&info) }
+            .map_err(GpuError::call(|| format!("allocate the descriptor set of kernel '{}'", pipeline.name)))?;
+        binding_set.set = sets[0];
+        device.set_name(binding_set.set, pipeline.name);
+
+        for ((binding, kind), resource) in (0..).zip(&pipeline.bindings).zip(resources) {
+            let write = vk::WriteDescriptorSet::default()
+                .dst_set(binding_set.set)
+                .dst_binding(binding)
+                .descriptor_type(kind.descriptor_type());
+            let buffers;
+            let images;
+            let write = match resource {
+                Resource::Buffer(buffer) => {
+                    buffers = [vk::DescriptorBufferInfo { buffer: buffer.raw, offset: 0, range: vk::WHOLE_SIZE }];
+                    write.buffer_info(&buffers)
+                }
+                Resource::Image(image) => {
+                    images = [vk::DescriptorImageInfo::default()
+                        .image_view(image.view)
+                        .image_layout(vk::ImageLayout::GENERAL)];
+                    write.image_info(&images)
+                }
+            };
+            // SAFETY: the set is not in use yet, and the set keeps every resource alive.
+            unsafe { device.raw.update_descriptor_sets(&[write], &[]) };
+            binding_set.uses.push((resource.clone(), kind.use_()));
+        }
+        Ok(binding_set)
+    }
+}
+
+impl Drop for BindingSet {
+    fn drop(&mut self) {
+        // SAFETY: submissions are waited for before a set can be dropped.
+        unsafe { self.device.raw.destroy_descriptor_pool(self.pool, None) };
+    }
+}

@@ -1,0 +1,17 @@
+//! The SPIR-V that build.rs compiled, one constant a kernel: `glsl/probe/layout.comp` is [`PROBE_LAYOUT`].
+
+/// A kernel's code.
+pub struct Shader {
+    /// File name under `glsl/` without its ending, folders joined by `_`.
+    pub name: &'static str,
+    /// SPIR-V, little-endian words.
+    pub spirv: &'static [u8],
+}
+
+impl Shader {
+    pub(super) fn words(&self) -> Vec<u32> {
+        self.spirv.chunks_exact(4).map(|word| u32::from_le_bytes([word[0], word[1], word[2], word[3]])).collect()
+    }
+}
+
+include!(concat!(env!("OUT_DIR"), "/shaders.rs"));

@@ -1,0 +1,169 @@
+//! From a scene to a frame on a device.
+
+mod course;
+mod records;
+mod tiles;
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+pub use course::{BINDINGS, MAX_PRIMITIVES, WORKGROUP, upload};
+pub use records::{
+    BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MaterialRecord, PrimitiveRecords, SphereRecord,
+};
+
+use crate::frame::{Frame, FrameError};
+use crate::gpu::{Buffer, BufferKind, Commands, Device, GpuError, Resource, StorageImage, Timer, Use};
+use crate::scene::Scene;
+use course::CourseKernel;
+use tiles::{Tile, tiles};
+
+/// Why there is no frame. Each is one line.
+#[derive(Debug, thiserror::Error)]
+pub enum TracerError {
+    /// The scene or the settings are not for this kernel.
+    #[error("{0}")]
+    Refused(String),
+    #[error("stopped")]
+    Stopped,
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+}
+
+impl TracerError {
+    /// Whether the scene or the settings are at fault, not the machine.
+    pub fn is_input_error(&self) -> bool {
+        match self {
+            Self::Refused(_) => true,
+            Self::Stopped => false,
+            Self::Gpu(error) => error.is_input_error(),
+            Self::Frame(error) => error.is_input_error(),
+        }
+    }
+}
+
+/// How to render, apart from the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Pixels.
+    pub width: u32,
+    pub height: u32,
+    /// In place of the scene's.
+    pub max_depth: Option<u32>,
+    /// Largest side of what one submission traces, pixels. A smaller tile reports and stops sooner.
+    pub max_tile_side: u32,
+    /// Pixels of a workgroup along x and y.
+    pub workgroup: [u32; 2],
+}
+
+impl Settings {
+    pub fn new(width: u32, height: u32) -> Self {
+        Self { width, height, max_depth: None, max_tile_side: 1024, workgroup: WORKGROUP }
+    }
+}
+
+/// A scene on a device, ready to be drawn again and again.
+pub struct Tracer {
+    kernel: CourseKernel,
+    tiles: Vec<Tile>,
+    width: u32,
+    height: u32,
+    picture: Resource,
+    pixels: Arc<Buffer>,
+    read_back: Resource,
+    timer: Option<Timer>,
+    commands: Commands,
+}
+
+impl Tracer {
+    /// # Errors
+    /// A picture or a scene that the kernel cannot take, or a failing device.
+    pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings) -> Result<Self, TracerError> {
+        let &Settings { width, height, max_depth, max_tile_side, workgroup } = settings;
+        Frame::check_size(width, height)?;
+        let tile_side = max_tile_side.clamp(1, device.description().max_image_side);
+        let (tile_width, tile_height) = (width.min(tile_side), height.min(tile_side));
+
+        let picture = Arc::new(StorageImage::new(device, "picture", tile_width, tile_height)?);
+        let tile_bytes = u64::from(tile_width) * u64::from(tile_height) * StorageImage::PIXEL_BYTES;
+        let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, tile_bytes)?);
+        let picture = Resource::from(&picture);
+        let max_depth = max_depth.unwrap_or(scene.max_depth);
+        Ok(Self {
+            kernel: CourseKernel::new(device, scene, max_depth, [width, height], workgroup, &picture)?,
+            tiles: tiles(width, height, tile_side),
+            width,
+            height,
+            picture,
+            read_back: Resource::from(&pixels),
+            pixels,
+            timer: Timer::new(device, "trace")?,
+            commands: Commands::new(device, "trace")?,
+        })
+    }
+
+    /// An empty frame of the right size for [`Tracer::render`].
+    pub fn frame(&self) -> Result<Frame, FrameError> {
+        Frame::new(self.width, self.height)
+    }
+
+    /// Draws the picture into `frame` and returns the GPU time of all its tiles, copies left out, in nanoseconds;
+    /// `None` where the device has no timestamps.
+    ///
+    /// `progress` hears of the pixels done after each tile and can stop the work there.
+    pub fn render(
+        &mut self,
+        frame: &mut Frame,
+        progress: &mut dyn FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<Option<u64>, TracerError> {
+        assert_eq!((frame.width(), frame.height()), (self.width, self.height), "the frame is of another size");
+        let mut gpu_time_ns = self.timer.as_ref().map(|_| 0);
+        let mut pixels_done = 0;
+        for tile in &self.tiles {
+            let tile_time_ns = trace_tile(
+                &mut self.commands,
+                &self.kernel,
+                &self.picture,
+                &self.read_back,
+                self.timer.as_ref(),
+                tile,
+            )?;
+            gpu_time_ns = gpu_time_ns.zip(tile_time_ns).map(|(sum, time)| sum + time);
+            tile.copy_pixels(bytemuck::cast_slice(self.pixels.bytes()?), frame);
+            pixels_done += u64::from(tile.width) * u64::from(tile.height);
+            if progress(pixels_done).is_break() {
+                return Err(TracerError::Stopped);
+            }
+        }
+        Ok(gpu_time_ns)
+    }
+}
+
+fn trace_tile(
+    commands: &mut Commands,
+    kernel: &CourseKernel,
+    picture: &Resource,
+    read_back: &Resource,
+    timer: Option<&Timer>,
+    tile: &Tile,
+) -> Result<Option<u64>, GpuError> {
+    commands.run(|recorder| {
+        recorder.labelled("trace", |recorder| {
+            recorder.make_ready(picture, Use::ShaderWrite);
+            timer.into_iter().for_each(|timer| recorder.start(timer));
+            kernel.record(recorder, [tile.x, tile.y], [tile.width, tile.height]);
+            timer.into_iter().for_each(|timer| recorder.stop(timer));
+            Ok(())
+        })?;
+        recorder.labelled("read back", |recorder| {
+            recorder.make_ready(picture, Use::CopySource);
+            recorder.make_ready(read_back, Use::CopyTarget);
+            recorder.copy_to_buffer(picture, read_back, tile.width, tile.height);
+            recorder.make_ready(read_back, Use::HostRead);
+            Ok(())
+        })
+    })?;
+    timer.map(Timer::elapsed_ns).transpose()
+}
