@@ -12,7 +12,9 @@
 //  5. The loop of B.3 also ends at `frame.depth`, so that the depth can change without a new pipeline; MAX_DEPTH is a
 //     specialization constant.
 //  6. The background of B.3 is `frame.background` (the listing's constant is the scene format's default).
-//  7. The line breaks and indents that the transcription lost are restored.
+//  7. The order of rounding is written down (rounding.glsl), so that every driver draws the goldens' pixels: `dot`,
+//     `normalize`, `reflect` and `length` are redefined, and B.2 turns into a box's frame by `rotate(m, v)` for m * v.
+//  8. The line breaks and indents that the transcription lost are restored.
 #include "interface.glsl"
 
 layout(constant_id = 0) const int MAX_DEPTH = 20;
@@ -20,6 +22,7 @@ layout(local_size_x_id = 1, local_size_y_id = 2) in;
 
 #include "course/bindings.glsl"
 #include "course/types.glsl"
+#include "course/rounding.glsl"
 #include "course/rays.glsl"
 #include "course/phong.glsl"
 #include "course/intersections.glsl"
@@ -33,8 +36,8 @@ void main() {
     // The last workgroups of a tile and the last tiles of a picture reach past its edge.
     if (any(greaterThanEqual(tile_pixel, uvec2(imageSize(picture)))) || any(greaterThanEqual(pixel, size))) return;
 
-    vec2 position = windowPoint(uvec2(pixel.x, size.y - 1u - pixel.y), size);
+    vec2 point = windowPoint(uvec2(pixel.x, size.y - 1u - pixel.y), size);
     float aspect = float(size.x) / float(size.y);
-    vec4 color = RayTrace(primaryRay(position, aspect), frame.lens);
+    vec4 color = RayTrace(primaryRay(point, aspect), frame.lens);
     imageStore(picture, ivec2(tile_pixel), vec4(color.rgb, 1.0));
 }

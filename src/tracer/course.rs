@@ -20,8 +20,8 @@ pub const BINDINGS: [BindingKind; 5] =
     [BindingKind::Picture, BindingKind::Uniform, BindingKind::Uniform, BindingKind::Uniform, BindingKind::Uniform];
 
 /// Pixels of a workgroup. lavapipe packs eight neighbours along x into one SIMD register, GPUs take 32 or 64
-/// invocations at a time: 16×8 fits all of them.
-pub const WORKGROUP: [u32; 2] = [16, 8];
+/// invocations at a time, which lie nearest to each other in a square.
+pub const WORKGROUP: [u32; 2] = [8, 8];
 
 /// The pipeline with one scene bound to it.
 pub(super) struct CourseKernel {
