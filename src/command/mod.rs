@@ -9,6 +9,7 @@ pub mod render;
 use std::io::{self, Write};
 use std::path::Path;
 
+use anyhow::Context;
 use clap::{Args, Subcommand};
 use serde::Serialize;
 
@@ -69,13 +70,18 @@ pub struct ValidationFailed {
 fn scene_named(name: &str) -> Result<Scene, SceneError> {
     match ready::scene(name) {
         Some(scene) => Ok(scene),
-        None => Scene::load(Path::new(name)),
+        None => Scene::load(Path::new(name)).map_err(|mut error| {
+            if !Path::new(name).exists() {
+                error.what.push_str("; nor is it a name of `zerkalo gallery`");
+            }
+            error
+        }),
     }
 }
 
 /// Printing that reports a closed pipe or a full disk instead of panicking.
 fn print_line(line: &str) -> anyhow::Result<()> {
-    Ok(writeln!(io::stdout(), "{line}")?)
+    writeln!(io::stdout(), "{line}").context("could not write to standard output")
 }
 
 fn print_json(value: &impl Serialize) -> anyhow::Result<()> {

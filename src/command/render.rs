@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use super::{DeviceArgs, interrupt, print_json, scene_named};
 use crate::frame::Frame;
-use crate::gpu::{Device, DeviceDescription, Message, Validation};
+use crate::gpu::{Device, DeviceDescription, DeviceKind, Message, Validation};
 use crate::scene::DEPTH_LIMIT;
 use crate::tracer::{Settings, Tracer};
 
@@ -102,7 +102,7 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     let description = device.description().clone();
     let messages = device.messages().clone();
 
-    let mut tracer = Tracer::new(&device, &scene, &settings(args))?;
+    let mut tracer = Tracer::new(&device, &scene, &settings(args, description.kind))?;
     let (frame, samples_ns) = render(&mut tracer, args.repeat)?;
     // Destroyed before the messages are counted: the layers check that too.
     drop((tracer, device));
@@ -112,8 +112,16 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     refuse_messages(&messages.to_vec())
 }
 
-fn settings(args: &RenderArgs) -> Settings {
-    Settings { max_depth: args.max_depth, ..Settings::new(args.size.0, args.size.1) }
+/// Side of a tile on a CPU device, pixels. Ctrl-C and the progress bar wait for a tile's end, and with the usual side
+/// one can take such a device half a minute; smaller tiles cost it nothing.
+const CPU_TILE_SIDE: u32 = 128;
+
+fn settings(args: &RenderArgs, device: DeviceKind) -> Settings {
+    let mut settings = Settings { max_depth: args.max_depth, ..Settings::new(args.size.0, args.size.1) };
+    if device == DeviceKind::Cpu {
+        settings.max_tile_side = CPU_TILE_SIDE;
+    }
+    settings
 }
 
 /// The frame and the GPU time of every measured render.
