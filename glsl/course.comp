@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The course work's kernel: listings B.1-B.4 of ../shared/course/coursework.md, one file a listing, kept as printed
+// The course work's kernel: listings B.1-B.4 of its note, one file a listing, kept as printed
 // (names, order, constants, even what is unused). All that differs from the listings, and why:
 //
 //  1. The uniform arrays are uniform buffers, the light and the counts push constants; so `findIntersection` no
@@ -9,8 +9,8 @@
 //     listing leaves them undefined; this is what the published pictures show.
 //  3. `calculateReflected` and the primary ray, missing from the listings, are in rays.glsl.
 //  4. The shadowed branch of B.3 reflects the ray as well: the transcription lost that line.
-//  5. The loop of B.3 also ends at `frame.depth`, so that the depth can change without a new pipeline; MAX_DEPTH is a
-//     specialization constant.
+//  5. MAX_DEPTH is a specialization constant; the loop of B.3 also ends at `frame.depth`, so that fewer generations
+//     need no new pipeline.
 //  6. The background of B.3 is `frame.background` (the listing's constant is the scene format's default).
 //  7. The order of rounding is written down (rounding.glsl), so that every driver draws the goldens' pixels: `dot`,
 //     `normalize`, `reflect` and `length` are redefined, and B.2 turns into a box's frame by `rotate(m, v)` for m * v.

@@ -16,8 +16,8 @@ struct Cli {
 }
 
 fn main() -> ExitCode {
-    let command = Cli::parse().command.unwrap_or_else(Command::showcase);
-    let result = interrupt::listen().map_err(anyhow::Error::from).and_then(|()| command.run());
+    let command = Cli::parse().command.unwrap_or_else(showcase);
+    let result = interrupt::handle().map_err(anyhow::Error::from).and_then(|()| command.run());
     match result {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
@@ -25,4 +25,11 @@ fn main() -> ExitCode {
             ExitCode::from(exit_code(&error))
         }
     }
+}
+
+/// What `zerkalo` does without a word.
+fn showcase() -> Command {
+    let words = ["zerkalo", "render", "showcase", "--output", "zerkalo.png"];
+    // invariant: a command line without mistakes, as tests/command_line.rs shows.
+    Cli::parse_from(words).command.expect("it has a command")
 }

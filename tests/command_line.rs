@@ -143,7 +143,7 @@ fn without_repeat_the_one_render_is_timed_and_told_in_a_sentence() {
     }
     let run = place.run(&render("four", "x.png", SMALL));
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
-    assert!(run.stdout.starts_with("x.png: 16x7 on ") && run.stdout.lines().count() == 1, "{}", run.stdout);
+    assert!(run.stdout.starts_with("wrote x.png (16x7, ") && run.stdout.lines().count() == 1, "{}", run.stdout);
 }
 
 #[test]
@@ -360,7 +360,6 @@ fn gallery_lists_every_name_and_writes_the_committed_files() {
     let names: Vec<_> = gallery::entries().into_iter().map(|entry| entry.name).collect();
     assert_eq!(listed, names);
 
-    fs::create_dir(place.path("scenes")).unwrap();
     let run = place.run(&["gallery", "--write", "scenes"]);
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
     let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes");
@@ -370,7 +369,9 @@ fn gallery_lists_every_name_and_writes_the_committed_files() {
         let text = |folder: &Path| fs::read_to_string(folder.join(&name)).unwrap().replace("\r\n", "\n");
         assert!(text(&written) == text(&committed), "{name}");
     }
-    place.assert_refused(&["gallery", "--write", "nowhere"], 1, &["nowhere", "not a folder"]);
+
+    fs::write(place.path("file"), "").unwrap();
+    place.assert_refused(&["gallery", "--write", "file"], 1, &["could not create folder file"]);
 }
 
 #[test]

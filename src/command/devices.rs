@@ -4,7 +4,7 @@ use anyhow::Result;
 use clap::Args;
 
 use super::{print_json, print_line};
-use crate::gpu::{self, DeviceDescription};
+use crate::gpu::{self, DeviceDescription, GpuError};
 
 /// List the Vulkan devices
 #[derive(Debug, Clone, Args)]
@@ -16,10 +16,13 @@ pub struct DevicesArgs {
 
 pub fn run(args: &DevicesArgs) -> Result<()> {
     let devices = gpu::devices()?;
+    if devices.is_empty() {
+        return Err(GpuError::NoDriver.into());
+    }
     if args.json {
         return print_json(&devices);
     }
-    // An empty list is a driver that lists nothing: the same as none.
+
     let default = gpu::choose(&devices, None);
     devices.iter().try_for_each(|device| print_line(&line(device, default.as_ref().is_ok_and(|&i| i == device.index))))
 }

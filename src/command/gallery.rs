@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use clap::Args;
 
 use super::print_line;
@@ -18,6 +18,7 @@ pub struct GalleryArgs {
 
 pub fn run(args: &GalleryArgs) -> Result<()> {
     if let Some(folder) = &args.write {
+        std::fs::create_dir_all(folder).with_context(|| format!("could not create folder {}", folder.display()))?;
         return Ok(gallery::write_all(folder)?);
     }
     gallery::entries().iter().try_for_each(|entry| print_line(&format!("{:16} {}", entry.name, entry.english)))

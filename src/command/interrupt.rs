@@ -1,21 +1,46 @@
-//! Ctrl-C: the first asks the work to stop where it loses nothing, the second ends the program at once.
+//! Ctrl-C. While work listens, the first asks it to stop where it loses nothing; otherwise, and the second time, the
+//! program ends at once. Neither leaves a half-written file.
 
+use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::whole_file;
 
 /// Exit code of a program ended by SIGINT, as shells report it.
 pub const EXIT_CODE: u8 = 130;
 
+static LISTENED_TO: AtomicBool = AtomicBool::new(false);
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 
 /// To be called once, at the start.
-pub fn listen() -> Result<(), ctrlc::Error> {
+pub fn handle() -> Result<(), ctrlc::Error> {
     ctrlc::set_handler(|| {
-        if REQUESTED.swap(true, Ordering::Relaxed) {
+        let is_second = REQUESTED.swap(true, Ordering::Relaxed);
+        if is_second || !LISTENED_TO.load(Ordering::Relaxed) {
+            whole_file::remove_unfinished();
+            // The one line of every failed run; where it cannot be written, the exit code tells as much.
+            let _ = writeln!(std::io::stderr(), "zerkalo: stopped");
             std::process::exit(EXIT_CODE.into());
         }
     })
 }
 
-pub fn requested() -> bool {
-    REQUESTED.load(Ordering::Relaxed)
+/// While it lives, Ctrl-C only sets what [`Listener::stop_requested`] tells.
+pub struct Listener(());
+
+impl Listener {
+    pub fn start() -> Self {
+        LISTENED_TO.store(true, Ordering::Relaxed);
+        Self(())
+    }
+
+    pub fn stop_requested(&self) -> bool {
+        REQUESTED.load(Ordering::Relaxed)
+    }
+}
+
+impl Drop for Listener {
+    fn drop(&mut self) {
+        LISTENED_TO.store(false, Ordering::Relaxed);
+    }
 }

@@ -27,11 +27,6 @@ pub enum Command {
 }
 
 impl Command {
-    /// What `zerkalo` does without a word.
-    pub fn showcase() -> Self {
-        Self::Render(render::RenderArgs::showcase())
-    }
-
     pub fn run(&self) -> anyhow::Result<()> {
         match self {
             Self::Render(args) => render::run(args),
@@ -46,17 +41,8 @@ impl Command {
 #[derive(Debug, Clone, Default, Args)]
 pub struct DeviceArgs {
     /// Number or part of the name of a device, see `zerkalo devices`
-    #[arg(long, value_name = "NAME|INDEX", env = DEVICE_VARIABLE)]
+    #[arg(long, value_name = "NAME|INDEX", env = "ZERKALO_DEVICE")]
     pub device: Option<String>,
-}
-
-const DEVICE_VARIABLE: &str = "ZERKALO_DEVICE";
-
-impl DeviceArgs {
-    /// As clap fills it when no option is given.
-    fn from_environment() -> Self {
-        Self { device: std::env::var(DEVICE_VARIABLE).ok() }
-    }
 }
 
 /// The validation layers had something to say.

@@ -1,6 +1,5 @@
 //! `zerkalo render SCENE -o OUT`: one picture into a file, timed.
 
-use std::num::NonZeroU32;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
@@ -9,9 +8,10 @@ use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
-use super::{DeviceArgs, interrupt, print_json, scene_named};
+use super::interrupt::Listener;
+use super::{DeviceArgs, print_json, scene_named};
 use crate::frame::Frame;
-use crate::gpu::{Device, DeviceDescription, DeviceKind, Message, Validation};
+use crate::gpu::{Device, DeviceDescription, Message, Validation};
 use crate::scene::DEPTH_LIMIT;
 use crate::tracer::{Settings, Tracer};
 
@@ -35,6 +35,7 @@ pub struct RenderArgs {
     /// Pixels, each side 1 to 16384
     #[arg(long, value_name = "WxH", default_value = "1621x701", value_parser = parse_size)]
     pub size: (u32, u32),
+    /// Which tracer draws
     #[arg(long, value_enum, default_value_t)]
     pub kernel: Kernel,
     /// Generations of a ray, in place of the scene's
@@ -43,31 +44,14 @@ pub struct RenderArgs {
     #[command(flatten)]
     pub device: DeviceArgs,
     /// Render once to warm up, then N times, and report the median GPU time
-    #[arg(long, value_name = "N")]
-    pub repeat: Option<NonZeroU32>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub repeat: Option<u32>,
     /// Run under core, synchronization and GPU-assisted validation; any message is a failure
     #[arg(long)]
     pub validate: bool,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-}
-
-impl RenderArgs {
-    /// `zerkalo` without a word: the showcase into `zerkalo.png`.
-    pub fn showcase() -> Self {
-        Self {
-            scene: "showcase".to_owned(),
-            output: PathBuf::from("zerkalo.png"),
-            size: (1621, 701),
-            kernel: Kernel::default(),
-            max_depth: None,
-            device: DeviceArgs::from_environment(),
-            repeat: None,
-            validate: false,
-            json: false,
-        }
-    }
 }
 
 fn parse_size(text: &str) -> Result<(u32, u32), String> {
@@ -102,7 +86,7 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     let description = device.description().clone();
     let messages = device.messages().clone();
 
-    let mut tracer = Tracer::new(&device, &scene, &settings(args, description.kind))?;
+    let mut tracer = Tracer::new(&device, &scene, &settings(args))?;
     let (frame, samples_ns) = render(&mut tracer, args.repeat)?;
     // Destroyed before the messages are counted: the layers check that too.
     drop((tracer, device));
@@ -112,31 +96,24 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     refuse_messages(&messages.to_vec())
 }
 
-/// Side of a tile on a CPU device, pixels. Ctrl-C and the progress bar wait for a tile's end, and with the usual side
-/// one can take such a device half a minute; smaller tiles cost it nothing.
-const CPU_TILE_SIDE: u32 = 128;
-
-fn settings(args: &RenderArgs, device: DeviceKind) -> Settings {
-    let mut settings = Settings { max_depth: args.max_depth, ..Settings::new(args.size.0, args.size.1) };
-    if device == DeviceKind::Cpu {
-        settings.max_tile_side = CPU_TILE_SIDE;
-    }
-    settings
+fn settings(args: &RenderArgs) -> Settings {
+    Settings { max_depth: args.max_depth, ..Settings::new(args.size.0, args.size.1) }
 }
 
 /// The frame and the GPU time of every measured render.
-fn render(tracer: &mut Tracer, repeat: Option<NonZeroU32>) -> Result<(Frame, Vec<u64>)> {
+fn render(tracer: &mut Tracer, repeat: Option<u32>) -> Result<(Frame, Vec<u64>)> {
     let warm_ups = u64::from(repeat.is_some());
-    let measured = repeat.map_or(1, |repeat| u64::from(repeat.get()));
+    let measured = repeat.map_or(1, u64::from);
     let mut frame = tracer.frame()?;
     let frame_pixels = u64::from(frame.width()) * u64::from(frame.height());
     let bar = progress_bar(frame_pixels * (warm_ups + measured));
+    let listener = Listener::start();
 
     let mut samples_ns = Vec::new();
     for index in 0..warm_ups + measured {
         let gpu_time_ns = tracer.render(&mut frame, &mut |pixels_done| {
             bar.set_position(index * frame_pixels + pixels_done);
-            if interrupt::requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         })?;
         if index >= warm_ups {
             samples_ns.extend(gpu_time_ns);
@@ -149,7 +126,9 @@ fn render(tracer: &mut Tracer, repeat: Option<NonZeroU32>) -> Result<(Frame, Vec
 /// Drawn on a terminal only.
 fn progress_bar(pixels: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (about {eta} left)");
-    ProgressBar::new(pixels).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    let bar = ProgressBar::new(pixels).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    bar.tick();
+    bar
 }
 
 fn report(
@@ -176,8 +155,15 @@ fn report(
     }
     let time =
         gpu_time_ns.map_or("GPU time unknown".to_owned(), |time| format!("{:.2} ms GPU time", time as f64 / 1e6));
-    let of = if args.repeat.is_some() { format!(", median of {}", samples_ns.len()) } else { ", cold".to_owned() };
-    super::print_line(&format!("{}: {width}x{height} on {}, {time}{of}", args.output.display(), device.name))
+    let of = match args.repeat {
+        Some(_) => format!("median of {}", samples_ns.len()),
+        None => "with the driver's warm-up".to_owned(),
+    };
+    super::print_line(&format!(
+        "wrote {} ({width}x{height}, {}, {time}, {of})",
+        args.output.display().to_string().escape_debug(),
+        device.name
+    ))
 }
 
 fn refuse_messages(messages: &[Message]) -> Result<()> {

@@ -75,12 +75,17 @@ impl Commands {
 
         let buffers = [self.buffer];
         let submit = [vk::SubmitInfo::default().command_buffers(&buffers)];
-        // SAFETY: everything recorded is alive until the wait ends; the fence is unsignalled before and after.
+        // SAFETY: everything recorded is alive until the wait ends; no submission is using the fence.
         unsafe {
             raw.end_command_buffer(self.buffer)
+                .and_then(|()| raw.reset_fences(&[self.fence]))
                 .and_then(|()| raw.queue_submit(self.device.queue, &submit, self.fence))
                 .and_then(|()| raw.wait_for_fences(&[self.fence], true, u64::MAX))
-                .and_then(|()| raw.reset_fences(&[self.fence]))
+                .inspect_err(|_| {
+                    // A wait that failed may have left work in flight, which must not outlive its resources. On a
+                    // lost device there is none, and this fails too.
+                    let _ = raw.device_wait_idle();
+                })
         }
         .map_err(GpuError::call(|| format!("run '{}'", self.name)))
     }
@@ -130,8 +135,14 @@ impl<'a> Recorder<'a> {
     ///
     /// An image touched for the first time in this recording loses what it held.
     pub fn make_ready(&mut self, resource: &'a Resource, next: Use) {
+        let old_layout = self.hazards.ready(resource.id()).map_or(vk::ImageLayout::UNDEFINED, image_layout);
         let before = self.hazards.note_barrier(resource.id(), next);
-        let (source_stage, source_access) = before.map_or((vk::PipelineStageFlags::TOP_OF_PIPE, NO_ACCESS), scope);
+        let (source_stage, source_access) = before
+            .into_iter()
+            .map(scope)
+            .fold((vk::PipelineStageFlags::empty(), NO_ACCESS), |all, one| (all.0 | one.0, all.1 | one.1));
+        // A barrier that waits for nothing has to say so.
+        let source_stage = if source_stage.is_empty() { vk::PipelineStageFlags::TOP_OF_PIPE } else { source_stage };
         let (target_stage, target_access) = scope(next);
         let mut buffers = Vec::new();
         let mut images = Vec::new();
@@ -149,7 +160,7 @@ impl<'a> Recorder<'a> {
                 vk::ImageMemoryBarrier::default()
                     .src_access_mask(source_access)
                     .dst_access_mask(target_access)
-                    .old_layout(before.map_or(vk::ImageLayout::UNDEFINED, image_layout))
+                    .old_layout(old_layout)
                     .new_layout(image_layout(next))
                     .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
                     .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
@@ -172,6 +183,9 @@ impl<'a> Recorder<'a> {
     }
 
     /// Runs `groups` workgroups of `pipeline` on what `set` binds.
+    ///
+    /// # Panics
+    /// The set was made for another pipeline, or the push constants are not as long as the pipeline's.
     pub fn dispatch(
         &mut self,
         pipeline: &'a ComputePipeline,
@@ -179,6 +193,8 @@ impl<'a> Recorder<'a> {
         push_constants: &[u8],
         groups: [u32; 3],
     ) {
+        assert_eq!(set.set_layout, pipeline.set_layout, "the set was made for another kernel than '{}'", pipeline.name);
+        assert_eq!(push_constants.len(), pipeline.push_constant_bytes as usize, "kernel '{}'", pipeline.name);
         for (resource, as_) in &set.uses {
             self.note_use(resource, pipeline.name, *as_);
         }
@@ -203,12 +219,15 @@ impl<'a> Recorder<'a> {
     }
 
     /// Copies the image's top left `width`×`height` pixels to the buffer, rows one after another.
+    ///
+    /// # Panics
+    /// One of them has no room for that.
     pub fn copy_to_buffer(&mut self, from: &'a Resource, to: &'a Resource, width: u32, height: u32) {
         let (Resource::Image(image), Resource::Buffer(buffer)) = (from, to) else {
             return self.report(format!("cannot copy '{}' to '{}': not an image and a buffer", from.name(), to.name()));
         };
-        debug_assert!(width <= image.width() && height <= image.height());
-        debug_assert!(u64::from(width) * u64::from(height) * StorageImage::PIXEL_BYTES <= buffer.size());
+        assert!(width <= image.width() && height <= image.height());
+        assert!(u64::from(width) * u64::from(height) * StorageImage::PIXEL_BYTES <= buffer.size());
         self.note_use(from, "copy", Use::CopySource);
         self.note_use(to, "copy", Use::CopyTarget);
         let region = vk::BufferImageCopy::default()
@@ -248,7 +267,8 @@ impl<'a> Recorder<'a> {
     }
 
     fn note_use(&mut self, resource: &Resource, command: &str, as_: Use) {
-        if let Some(hazard) = self.hazards.note_use(resource.id(), resource.name(), command, as_) {
+        let needs_layout = matches!(resource, Resource::Image(_));
+        if let Some(hazard) = self.hazards.note_use(resource.id(), resource.name(), command, as_, needs_layout) {
             self.report(hazard);
         }
         if matches!(resource, Resource::Buffer(buffer) if buffer.kind.is_read_by_host()) {
@@ -258,7 +278,7 @@ impl<'a> Recorder<'a> {
 
     fn check_read_back(&mut self) {
         for resource in std::mem::take(&mut self.read_back) {
-            if self.hazards.has_unseen_write(resource.id()) {
+            if self.hazards.is_hidden_from_host(resource.id()) {
                 self.report(format!("'{}' was written without a barrier for the host that reads it", resource.name()));
             }
         }

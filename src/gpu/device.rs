@@ -2,12 +2,18 @@ use std::ffi::CString;
 use std::sync::{Arc, Mutex};
 
 use ash::{ext, vk};
+use gpu_allocator::AllocationSizes;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
 use super::error::GpuError;
 use super::instance::Instance;
 use super::physical::{Candidate, DeviceDescription};
 use super::pipeline_cache::PipelineCache;
+
+/// Device memory is taken in blocks that grow from the first to the second size: the usual blocks of 256 MiB are as
+/// large as all memory that a card without resizable BAR shares with the host.
+const MEMORY_BLOCK_BYTES: u64 = 4 << 20;
+const MAX_MEMORY_BLOCK_BYTES: u64 = 64 << 20;
 
 /// A logical device with its one queue, its memory and its pipeline cache.
 ///
@@ -59,9 +65,11 @@ impl Device {
             physical_device: candidate.raw,
             debug_settings: Default::default(),
             buffer_device_address: false,
-            allocation_sizes: Default::default(),
+            allocation_sizes: AllocationSizes::new(MEMORY_BLOCK_BYTES, MEMORY_BLOCK_BYTES)
+                .with_max_device_memblock_size(MAX_MEMORY_BLOCK_BYTES)
+                .with_max_host_memblock_size(MAX_MEMORY_BLOCK_BYTES),
         })
-        .map_err(|source| GpuError::Allocation { object: format!("device '{name}'"), bytes: 0, source })?;
+        .map_err(|source| GpuError::Allocator { device: name, source })?;
         device.allocator = Some(Mutex::new(allocator));
         device.set_name(queue, "queue");
         Ok(Arc::new(device))

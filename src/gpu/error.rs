@@ -21,6 +21,9 @@ pub enum GpuError {
     )]
     NoValidationLayer,
 
+    #[error("validation was asked for, but the Vulkan loader and its layer do not offer {0}")]
+    NoValidationExtension(&'static str),
+
     /// No device has all that is needed; each is listed with all that it lacks.
     #[error("no suitable Vulkan device: {0}")]
     NoSuitableDevice(String),
@@ -33,6 +36,9 @@ pub enum GpuError {
     #[error("could not {operation}: {result:?}{}", hint(*.result))]
     Call { operation: String, result: vk::Result },
 
+    #[error("could not manage the memory of device '{device}': {source}")]
+    Allocator { device: String, source: gpu_allocator::AllocationError },
+
     #[error("could not allocate {bytes} B of device memory for {object}: {source}")]
     Allocation { object: String, bytes: u64, source: gpu_allocator::AllocationError },
 
@@ -44,10 +50,6 @@ impl GpuError {
     /// For `map_err`: `.map_err(GpuError::call(|| format!("create buffer '{name}'")))`.
     pub fn call<S: Into<String>>(operation: impl FnOnce() -> S) -> impl FnOnce(vk::Result) -> GpuError {
         move |result| GpuError::Call { operation: operation().into(), result }
-    }
-
-    pub fn is_device_lost(&self) -> bool {
-        matches!(self, GpuError::Call { result: vk::Result::ERROR_DEVICE_LOST, .. })
     }
 
     /// Whether the user's choice is at fault rather than the machine.

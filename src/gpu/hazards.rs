@@ -1,7 +1,7 @@
 //! Finds commands that touch one resource without a barrier between them.
 //!
-//! Synchronization validation does not see a missing barrier between two dispatches on one storage buffer (STACK:
-//! seen with layer 1.3.239), so the recorder keeps its own book: every command says how it uses each resource, and
+//! Synchronization validation does not see a missing barrier between two dispatches on one storage buffer (seen with
+//! layer 1.3.239), so the recorder keeps its own book: every command says how it uses each resource, and
 //! every barrier which use it makes way for. Pure: no Vulkan.
 
 use std::collections::HashMap;
@@ -36,12 +36,14 @@ impl Use {
 }
 
 /// What has happened to one resource in the command buffer being recorded.
-#[derive(Debug, Clone)]
-enum State {
-    /// Used by a command, no barrier since.
-    Used { by: String, as_: Use },
-    /// A barrier made it ready for this use, no command since.
-    Ready(Use),
+#[derive(Debug, Default)]
+struct State {
+    /// The commands that used it since the last barrier, with how.
+    uses: Vec<(String, Use)>,
+    /// What the last barrier made it ready for.
+    ready: Option<Use>,
+    /// Whether any command wrote it.
+    is_written: bool,
 }
 
 /// The book of one command buffer. The host waits for each submission, so nothing is owed between two of them.
@@ -52,31 +54,53 @@ pub struct Hazards {
 
 impl Hazards {
     /// Notes a command's use; `Some` names the hazard when no barrier made way for it.
-    pub fn note_use(&mut self, id: ResourceId, resource: &str, command: &str, as_: Use) -> Option<String> {
-        let hazard = match self.states.get(&id) {
-            Some(State::Used { by, as_: before }) if before.writes() || as_.writes() => {
-                Some(format!("{command} uses '{resource}' as {as_:?} after {by} as {before:?} without a barrier"))
-            }
-            Some(State::Ready(ready)) if *ready != as_ => {
-                Some(format!("{command} uses '{resource}' as {as_:?}, but the barrier made it ready for {ready:?}"))
-            }
-            _ => None,
+    ///
+    /// `needs_barrier`: the resource's first use needs one too, as an image's does for its layout.
+    pub fn note_use(
+        &mut self,
+        id: ResourceId,
+        resource: &str,
+        command: &str,
+        as_: Use,
+        needs_barrier: bool,
+    ) -> Option<String> {
+        let state = self.states.entry(id).or_default();
+        let clash = state.uses.iter().find(|(_, before)| before.writes() || as_.writes());
+        let hazard = if let Some((by, before)) = clash {
+            Some(format!("{command} uses '{resource}' as {as_:?} after {by} as {before:?} without a barrier"))
+        } else if (state.is_written || needs_barrier || state.ready.is_some()) && state.ready != Some(as_) {
+            let ready = state.ready.map_or("nothing".to_owned(), |ready| format!("{ready:?}"));
+            Some(format!("{command} uses '{resource}' as {as_:?}, but the last barrier made it ready for {ready}"))
+        } else {
+            None
         };
-        self.states.insert(id, State::Used { by: command.to_owned(), as_ });
+        state.uses.push((command.to_owned(), as_));
+        state.is_written |= as_.writes();
         hazard
     }
 
-    /// Notes a barrier; returns the use that it must wait for, if there was one.
-    pub fn note_barrier(&mut self, id: ResourceId, next: Use) -> Option<Use> {
-        match self.states.insert(id, State::Ready(next)) {
-            Some(State::Used { as_, .. } | State::Ready(as_)) => Some(as_),
-            None => None,
+    /// Notes a barrier; returns the uses that it must wait for: those since the last barrier or, if there were none,
+    /// the one that that barrier made way for.
+    pub fn note_barrier(&mut self, id: ResourceId, next: Use) -> Vec<Use> {
+        let state = self.states.entry(id).or_default();
+        let mut before: Vec<Use> = state.uses.drain(..).map(|(_, as_)| as_).collect();
+        if before.is_empty() {
+            before.extend(state.ready);
         }
+        state.ready = Some(next);
+        before
     }
 
-    /// Whether the device wrote the resource and no barrier has made that visible yet.
-    pub fn has_unseen_write(&self, id: ResourceId) -> bool {
-        matches!(self.states.get(&id), Some(State::Used { as_, .. }) if as_.writes())
+    /// What the last barrier made the resource ready for.
+    pub fn ready(&self, id: ResourceId) -> Option<Use> {
+        self.states.get(&id).and_then(|state| state.ready)
+    }
+
+    /// Whether a command wrote the resource and no barrier has made that visible to the host.
+    pub fn is_hidden_from_host(&self, id: ResourceId) -> bool {
+        self.states.get(&id).is_some_and(|state| {
+            state.is_written && (state.ready != Some(Use::HostRead) || state.uses.iter().any(|(_, as_)| as_.writes()))
+        })
     }
 }
 
@@ -84,38 +108,87 @@ impl Hazards {
 mod tests {
     use super::*;
 
+    /// A book with one resource.
+    struct Book(Hazards, ResourceId);
+
+    impl Book {
+        fn new() -> Self {
+            Self(Hazards::default(), ResourceId::fresh())
+        }
+
+        fn uses(&mut self, command: &str, as_: Use) -> Option<String> {
+            self.0.note_use(self.1, "sums", command, as_, false)
+        }
+
+        fn barrier(&mut self, next: Use) -> Vec<Use> {
+            self.0.note_barrier(self.1, next)
+        }
+    }
+
     #[test]
     fn two_writers_without_a_barrier_are_seen_and_with_one_are_not() {
-        let (mut hazards, id) = (Hazards::default(), ResourceId::fresh());
-        assert_eq!(hazards.note_use(id, "sums", "first", Use::ShaderWrite), None);
-        let seen = hazards.note_use(id, "sums", "second", Use::ShaderWrite).unwrap();
+        let mut book = Book::new();
+        assert_eq!(book.uses("first", Use::ShaderWrite), None);
+        let seen = book.uses("second", Use::ShaderWrite).unwrap();
         assert!(seen.contains("second") && seen.contains("'sums'") && seen.contains("first"), "{seen}");
-        assert_eq!(hazards.note_barrier(id, Use::ShaderWrite), Some(Use::ShaderWrite));
-        assert_eq!(hazards.note_use(id, "sums", "third", Use::ShaderWrite), None);
+        assert_eq!(book.barrier(Use::ShaderWrite), [Use::ShaderWrite, Use::ShaderWrite]);
+        assert_eq!(book.uses("third", Use::ShaderWrite), None);
     }
 
     #[test]
     fn reads_may_share_but_a_write_after_them_may_not() {
-        let (mut hazards, id) = (Hazards::default(), ResourceId::fresh());
-        assert_eq!(hazards.note_use(id, "spheres", "first", Use::ShaderRead), None);
-        assert_eq!(hazards.note_use(id, "spheres", "second", Use::ShaderRead), None);
-        assert!(hazards.note_use(id, "spheres", "third", Use::ShaderWrite).is_some());
+        let mut book = Book::new();
+        assert_eq!(book.uses("first", Use::ShaderRead), None);
+        assert_eq!(book.uses("second", Use::ShaderRead), None);
+        assert!(book.uses("third", Use::ShaderWrite).is_some());
+    }
+
+    #[test]
+    fn a_barrier_waits_for_every_use_before_it() {
+        let mut book = Book::new();
+        book.uses("trace", Use::ShaderRead);
+        book.uses("copy", Use::CopySource);
+        assert_eq!(book.barrier(Use::ShaderWrite), [Use::ShaderRead, Use::CopySource]);
+        assert_eq!(book.barrier(Use::CopySource), [Use::ShaderWrite], "nothing between: what it was ready for");
     }
 
     #[test]
     fn a_barrier_for_another_use_is_seen() {
-        let (mut hazards, id) = (Hazards::default(), ResourceId::fresh());
-        hazards.note_use(id, "picture", "trace", Use::ShaderWrite);
-        hazards.note_barrier(id, Use::ShaderRead);
-        assert!(hazards.note_use(id, "picture", "copy", Use::CopySource).is_some());
+        let mut book = Book::new();
+        book.uses("trace", Use::ShaderWrite);
+        book.barrier(Use::ShaderRead);
+        assert!(book.uses("copy", Use::CopySource).is_some());
     }
 
     #[test]
-    fn a_write_stays_unseen_until_a_barrier() {
+    fn a_write_is_visible_only_to_what_the_barrier_made_way_for_even_after_a_read() {
+        let mut book = Book::new();
+        book.uses("trace", Use::ShaderWrite);
+        book.barrier(Use::ShaderRead);
+        assert_eq!(book.uses("sum", Use::ShaderRead), None);
+        assert!(book.uses("copy", Use::CopySource).is_some());
+    }
+
+    #[test]
+    fn a_first_use_needs_a_barrier_where_a_layout_does() {
         let (mut hazards, id) = (Hazards::default(), ResourceId::fresh());
-        hazards.note_use(id, "pixels", "copy", Use::CopyTarget);
-        assert!(hazards.has_unseen_write(id));
-        hazards.note_barrier(id, Use::HostRead);
-        assert!(!hazards.has_unseen_write(id));
+        assert!(hazards.note_use(id, "picture", "trace", Use::ShaderWrite, true).is_some());
+        let id = ResourceId::fresh();
+        hazards.note_barrier(id, Use::ShaderWrite);
+        assert_eq!(hazards.note_use(id, "picture", "trace", Use::ShaderWrite, true), None);
+    }
+
+    #[test]
+    fn a_write_stays_hidden_from_the_host_until_a_barrier_for_it() {
+        let mut book = Book::new();
+        book.uses("copy", Use::CopyTarget);
+        assert!(book.0.is_hidden_from_host(book.1));
+        book.barrier(Use::ShaderRead);
+        book.uses("sum", Use::ShaderRead);
+        assert!(book.0.is_hidden_from_host(book.1));
+        book.barrier(Use::HostRead);
+        assert!(!book.0.is_hidden_from_host(book.1));
+        book.uses("copy", Use::CopyTarget);
+        assert!(book.0.is_hidden_from_host(book.1));
     }
 }

@@ -38,9 +38,9 @@ impl Instance {
         // SAFETY: the loader library's initialisers are trusted like any system library's.
         let entry = unsafe { ash::Entry::load() }.map_err(GpuError::NoLoader)?;
         check_loader_version(&entry)?;
-        let has_debug_utils = offers_extension(&entry, ext::debug_utils::NAME)?;
-        if validation != Validation::Off && !offers_validation(&entry)? {
-            return Err(GpuError::NoValidationLayer);
+        let has_debug_utils = offers_extension(&entry, None, ext::debug_utils::NAME)?;
+        if validation != Validation::Off {
+            check_validation(&entry, has_debug_utils)?;
         }
 
         let messages = Messages::default();
@@ -78,18 +78,27 @@ fn check_loader_version(entry: &ash::Entry) -> Result<(), GpuError> {
     if version < API_VERSION { Err(GpuError::OldLoader(version_text(version))) } else { Ok(()) }
 }
 
-fn offers_extension(entry: &ash::Entry, wanted: &CStr) -> Result<bool, GpuError> {
+fn offers_extension(entry: &ash::Entry, layer: Option<&CStr>, wanted: &CStr) -> Result<bool, GpuError> {
     // SAFETY: the entry is loaded.
-    let extensions = unsafe { entry.enumerate_instance_extension_properties(None) }
+    let extensions = unsafe { entry.enumerate_instance_extension_properties(layer) }
         .map_err(GpuError::call(|| "list the instance extensions"))?;
     Ok(extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(wanted)))
 }
 
-fn offers_validation(entry: &ash::Entry) -> Result<bool, GpuError> {
+fn check_validation(entry: &ash::Entry, has_debug_utils: bool) -> Result<(), GpuError> {
     // SAFETY: the entry is loaded.
     let layers = unsafe { entry.enumerate_instance_layer_properties() }
         .map_err(GpuError::call(|| "list the instance layers"))?;
-    Ok(layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER)))
+    if !layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER)) {
+        return Err(GpuError::NoValidationLayer);
+    }
+    if !has_debug_utils {
+        return Err(GpuError::NoValidationExtension("VK_EXT_debug_utils"));
+    }
+    if !offers_extension(entry, Some(VALIDATION_LAYER), ext::validation_features::NAME)? {
+        return Err(GpuError::NoValidationExtension("VK_EXT_validation_features"));
+    }
+    Ok(())
 }
 
 fn create(
@@ -100,8 +109,15 @@ fn create(
 ) -> Result<ash::Instance, GpuError> {
     let application =
         vk::ApplicationInfo::default().application_name(c"zerkalo").engine_name(c"zerkalo").api_version(API_VERSION);
-    let extensions: Vec<_> = has_debug_utils.then_some(ext::debug_utils::NAME.as_ptr()).into_iter().collect();
-    let layers: Vec<_> = (validation != Validation::Off).then_some(VALIDATION_LAYER.as_ptr()).into_iter().collect();
+    let mut extensions = Vec::new();
+    let mut layers = Vec::new();
+    if has_debug_utils {
+        extensions.push(ext::debug_utils::NAME.as_ptr());
+    }
+    if validation != Validation::Off {
+        extensions.push(ext::validation_features::NAME.as_ptr());
+        layers.push(VALIDATION_LAYER.as_ptr());
+    }
 
     let mut checks = vec![vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
     if validation == Validation::GpuAssisted {

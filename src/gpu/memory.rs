@@ -52,7 +52,7 @@ pub struct Buffer {
     /// Bytes.
     size: u64,
     allocation: Option<Allocation>,
-    device: Arc<Device>,
+    pub(super) device: Arc<Device>,
 }
 
 impl Buffer {
@@ -75,11 +75,12 @@ impl Buffer {
         device.set_name(raw, name);
         // SAFETY: the buffer was made from this device.
         let requirements = unsafe { device.raw.get_buffer_memory_requirements(raw) };
-        let allocation = allocate(device, &format!("buffer '{name}'"), requirements, kind.location(), true)?;
+        let object = format!("buffer '{name}'");
+        let allocation = buffer.allocation.insert(allocate(device, &object, requirements, kind.location(), true)?);
         // SAFETY: the memory is fresh, large enough by its requirements, and lives until the buffer is destroyed.
         unsafe { device.raw.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) }
             .map_err(GpuError::call(|| format!("bind the memory of buffer '{name}'")))?;
-        buffer.allocation = Some(allocation);
+
         Ok(buffer)
     }
 
@@ -87,8 +88,12 @@ impl Buffer {
         self.size
     }
 
-    /// Copies `bytes` to the buffer's start. The device must not be using the buffer.
+    /// Copies `bytes`, at most [`Buffer::size`] of them, to the buffer's start.
+    ///
+    /// # Panics
+    /// There are more.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), GpuError> {
+        assert!(bytes.len() as u64 <= self.size, "buffer '{}' has {} B", self.name, self.size);
         let mapped = self.allocation.as_mut().and_then(Allocation::mapped_slice_mut);
         let mapped = mapped.ok_or_else(|| GpuError::NotMapped { object: format!("buffer '{}'", self.name) })?;
         mapped[..bytes.len()].copy_from_slice(bytes);
@@ -105,9 +110,9 @@ impl Buffer {
 
 impl Drop for Buffer {
     fn drop(&mut self) {
-        free(&self.device, self.allocation.take());
         // SAFETY: submissions are waited for before their resources can be dropped.
         unsafe { self.device.raw.destroy_buffer(self.raw, None) };
+        free(&self.device, self.allocation.take());
     }
 }
 
@@ -119,7 +124,7 @@ pub struct StorageImage {
     pub(super) id: ResourceId,
     pub(super) extent: vk::Extent2D,
     allocation: Option<Allocation>,
-    device: Arc<Device>,
+    pub(super) device: Arc<Device>,
 }
 
 impl StorageImage {
@@ -154,11 +159,12 @@ impl StorageImage {
         device.set_name(raw, name);
         // SAFETY: the image was made from this device.
         let requirements = unsafe { device.raw.get_image_memory_requirements(raw) };
-        let allocation = allocate(device, &format!("image '{name}'"), requirements, MemoryLocation::GpuOnly, false)?;
+        let object = format!("image '{name}'");
+        let allocation =
+            image.allocation.insert(allocate(device, &object, requirements, MemoryLocation::GpuOnly, false)?);
         // SAFETY: as for a buffer.
         unsafe { device.raw.bind_image_memory(raw, allocation.memory(), allocation.offset()) }
             .map_err(GpuError::call(|| format!("bind the memory of image '{name}'")))?;
-        image.allocation = Some(allocation);
 
         let info = vk::ImageViewCreateInfo::default()
             .image(raw)

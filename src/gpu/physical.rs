@@ -73,8 +73,11 @@ pub(super) struct Candidate {
 
 pub(super) fn list(instance: &Instance) -> Result<Vec<Candidate>, GpuError> {
     // SAFETY: the instance is alive.
-    let devices =
-        unsafe { instance.raw.enumerate_physical_devices() }.map_err(GpuError::call(|| "list the Vulkan devices"))?;
+    let devices = unsafe { instance.raw.enumerate_physical_devices() }.map_err(|result| match result {
+        // What a driver without its hardware answers.
+        vk::Result::ERROR_INITIALIZATION_FAILED => GpuError::NoDriver,
+        result => GpuError::Call { operation: "list the Vulkan devices".into(), result },
+    })?;
     Ok(devices.into_iter().enumerate().map(|(index, raw)| inspect(instance, index, raw)).collect())
 }
 
@@ -96,7 +99,10 @@ fn inspect(instance: &Instance, index: usize, raw: vk::PhysicalDevice) -> Candid
     if properties.api_version < API_VERSION {
         lacks.push(format!("Vulkan 1.2 (it offers {})", version_text(properties.api_version)));
     }
-    let queue_family = families.iter().position(|family| family.queue_flags.contains(vk::QueueFlags::COMPUTE));
+    let can_compute = |&family: &usize| families[family].queue_flags.contains(vk::QueueFlags::COMPUTE);
+    let has_timestamps = |&family: &usize| families[family].timestamp_valid_bits > 0;
+    let computing: Vec<usize> = (0..families.len()).filter(can_compute).collect();
+    let queue_family = computing.iter().copied().find(has_timestamps).or(computing.first().copied());
     if queue_family.is_none() {
         lacks.push("a queue that can compute".to_owned());
     }
@@ -144,9 +150,11 @@ pub fn choose(devices: &[DeviceDescription], wanted: Option<&str>) -> Result<usi
     let Some(wanted) = wanted else {
         return best(&|_| true).ok_or_else(|| GpuError::NoSuitableDevice(listed(devices)));
     };
-    let named = |device: &DeviceDescription| match wanted.trim().parse::<usize>() {
-        Ok(index) => device.index == index,
-        Err(_) => device.name.to_lowercase().contains(&wanted.trim().to_lowercase()),
+    // A number too large for an index may be part of a name, such as "4070".
+    let index = wanted.trim().parse().ok().filter(|&index: &usize| index < devices.len());
+    let named = |device: &DeviceDescription| match index {
+        Some(index) => device.index == index,
+        None => device.name.to_lowercase().contains(&wanted.trim().to_lowercase()),
     };
     best(&named).ok_or_else(|| GpuError::WantedDevice {
         wanted: wanted.to_owned(),
@@ -206,6 +214,13 @@ mod tests {
         assert_eq!(choose(&machine(), Some("LLVM")).unwrap(), 0);
         assert_eq!(choose(&machine(), Some("iris")).unwrap(), 1);
         assert_eq!(choose(&machine(), Some("iris pro")).unwrap(), 3);
+    }
+
+    #[test]
+    fn a_number_too_large_for_an_index_is_part_of_a_name() {
+        let devices = [device(0, "llvmpipe", DeviceKind::Cpu, &[]), device(1, "RTX 4070", DeviceKind::Discrete, &[])];
+        assert_eq!(choose(&devices, Some("4070")).unwrap(), 1);
+        assert_eq!(choose(&devices, Some("1")).unwrap(), 1);
     }
 
     #[test]

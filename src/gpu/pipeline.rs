@@ -7,7 +7,7 @@ use ash::vk;
 use super::device::Device;
 use super::error::GpuError;
 use super::hazards::{ResourceId, Use};
-use super::memory::{Buffer, StorageImage};
+use super::memory::{Buffer, BufferKind, StorageImage};
 use super::shaders::Shader;
 
 /// How a kernel uses one binding.
@@ -52,7 +52,8 @@ pub struct ComputePipeline {
     pub(super) raw: vk::Pipeline,
     pub(super) layout: vk::PipelineLayout,
     pub(super) name: &'static str,
-    set_layout: vk::DescriptorSetLayout,
+    pub(super) set_layout: vk::DescriptorSetLayout,
+    pub(super) push_constant_bytes: u32,
     bindings: Vec<BindingKind>,
     device: Arc<Device>,
 }
@@ -66,6 +67,7 @@ impl ComputePipeline {
             layout: vk::PipelineLayout::null(),
             name,
             set_layout: vk::DescriptorSetLayout::null(),
+            push_constant_bytes: description.push_constant_bytes,
             bindings: description.bindings.to_vec(),
             device: device.clone(),
         };
@@ -169,6 +171,24 @@ impl Resource {
         }
     }
 
+    fn fits(&self, binding: BindingKind) -> bool {
+        match self {
+            Self::Buffer(buffer) => match binding {
+                BindingKind::Uniform => buffer.kind == BufferKind::Uniform,
+                BindingKind::Storage => buffer.kind == BufferKind::Storage,
+                BindingKind::Picture => false,
+            },
+            Self::Image(_) => binding == BindingKind::Picture,
+        }
+    }
+
+    fn device(&self) -> &Arc<Device> {
+        match self {
+            Self::Buffer(buffer) => &buffer.device,
+            Self::Image(image) => &image.device,
+        }
+    }
+
     pub(super) fn name(&self) -> &str {
         match self {
             Self::Buffer(buffer) => &buffer.name,
@@ -192,13 +212,18 @@ impl From<&Arc<StorageImage>> for Resource {
 /// A descriptor set: the resources of one pipeline, kept alive with it.
 pub struct BindingSet {
     pub(super) set: vk::DescriptorSet,
+    /// Of the pipeline that it was made for.
+    pub(super) set_layout: vk::DescriptorSetLayout,
     pub(super) uses: Vec<(Resource, Use)>,
     pool: vk::DescriptorPool,
     device: Arc<Device>,
 }
 
 impl BindingSet {
-    /// Binds `resources[i]` to binding `i` of `pipeline`; both lists have the same length and kinds.
+    /// Binds `resources[i]` to binding `i` of `pipeline`.
+    ///
+    /// # Panics
+    /// The resources are not those that the pipeline binds, in number, kind or device.
     pub fn new(pipeline: &ComputePipeline, resources: &[Resource]) -> Result<Self, GpuError> {
         assert_eq!(resources.len(), pipeline.bindings.len(), "kernel '{}' binds other resources", pipeline.name);
         let device = &pipeline.device;
@@ -212,7 +237,13 @@ impl BindingSet {
         let pool = unsafe { device.raw.create_descriptor_pool(&info, None) }
             .map_err(GpuError::call(|| format!("create the descriptor pool of kernel '{}'", pipeline.name)))?;
         // Dropped, and so freed, by a failure below; a set dies with its pool.
-        let mut binding_set = Self { set: vk::DescriptorSet::null(), uses: Vec::new(), pool, device: device.clone() };
+        let mut binding_set = Self {
+            set: vk::DescriptorSet::null(),
+            set_layout: pipeline.set_layout,
+            uses: Vec::new(),
+            pool,
+            device: device.clone(),
+        };
         device.set_name(pool, pipeline.name);
 
         let set_layouts = [pipeline.set_layout];
@@ -228,6 +259,8 @@ impl BindingSet {
                 .dst_set(binding_set.set)
                 .dst_binding(binding)
                 .descriptor_type(kind.descriptor_type());
+            assert!(resource.fits(*kind), "'{}' cannot be bound as {kind:?}", resource.name());
+            assert!(Arc::ptr_eq(resource.device(), device), "'{}' is another device's", resource.name());
             let buffers;
             let images;
             let write = match resource {

@@ -17,11 +17,14 @@ use crate::whole_file::WholeFile;
 /// all of them check the rest.
 const MAGIC: [u8; 8] = *b"zerkalo1";
 
+/// A cache only grows; past this it is begun anew. A kernel's code takes some tens of kilobytes.
+const LARGEST_BYTES: u64 = 64 << 20;
+
 pub(super) struct PipelineCache {
     pub raw: vk::PipelineCache,
     path: Option<PathBuf>,
-    /// Length of what the file holds: a cache only grows, so an equal length means nothing new.
-    saved_length: Mutex<usize>,
+    /// CRC-32 of what the file holds.
+    saved: Mutex<u32>,
 }
 
 impl PipelineCache {
@@ -35,7 +38,7 @@ impl PipelineCache {
         };
         // A null cache is legal in every use of it.
         let raw = create(&data).or_else(|_| create(&[])).unwrap_or(vk::PipelineCache::null());
-        Self { raw, path, saved_length: Mutex::new(data.len()) }
+        Self { raw, path, saved: Mutex::new(crc32fast::hash(&data)) }
     }
 
     /// Writes what was compiled since to the file.
@@ -46,9 +49,10 @@ impl PipelineCache {
         }
         // SAFETY: the cache was made from this device.
         let Ok(data) = (unsafe { device.get_pipeline_cache_data(self.raw) }) else { return };
-        let mut saved_length = self.saved_length.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
-        if data.len() != *saved_length && write(path, &data).is_ok() {
-            *saved_length = data.len();
+        let checksum = crc32fast::hash(&data);
+        let mut saved = self.saved.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if checksum != *saved && write(path, &data).is_ok() {
+            *saved = checksum;
         }
     }
 
@@ -67,6 +71,9 @@ fn cache_path(([vendor, device], uuid): ([u32; 2], [u8; vk::UUID_SIZE])) -> Opti
 }
 
 fn read(path: &Path, identity: ([u32; 2], [u8; vk::UUID_SIZE])) -> Option<Vec<u8>> {
+    if fs::metadata(path).ok()?.len() > LARGEST_BYTES {
+        return None;
+    }
     let data = unwrap_checked(&fs::read(path).ok()?)?.to_vec();
     has_header_of(&data, identity).then_some(data)
 }

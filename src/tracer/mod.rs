@@ -52,7 +52,7 @@ pub struct Settings {
     pub height: u32,
     /// In place of the scene's.
     pub max_depth: Option<u32>,
-    /// Largest side of what one submission traces, pixels. A smaller tile reports and stops sooner.
+    /// Largest side of what one submission traces, pixels; heavy scenes take smaller tiles, see [`tile_side`].
     pub max_tile_side: u32,
     /// Pixels of a workgroup along x and y.
     pub workgroup: [u32; 2],
@@ -83,14 +83,15 @@ impl Tracer {
     pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings) -> Result<Self, TracerError> {
         let &Settings { width, height, max_depth, max_tile_side, workgroup } = settings;
         Frame::check_size(width, height)?;
-        let tile_side = max_tile_side.clamp(1, device.description().max_image_side);
+        let max_depth = max_depth.unwrap_or(scene.max_depth);
+        let max_tile_side = max_tile_side.clamp(1, device.description().max_image_side);
+        let tile_side = tile_side(max_tile_side, scene.primitives.len(), max_depth);
         let (tile_width, tile_height) = (width.min(tile_side), height.min(tile_side));
 
         let picture = Arc::new(StorageImage::new(device, "picture", tile_width, tile_height)?);
         let tile_bytes = u64::from(tile_width) * u64::from(tile_height) * StorageImage::PIXEL_BYTES;
         let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, tile_bytes)?);
         let picture = Resource::from(&picture);
-        let max_depth = max_depth.unwrap_or(scene.max_depth);
         Ok(Self {
             kernel: CourseKernel::new(device, scene, max_depth, [width, height], workgroup, &picture)?,
             tiles: tiles(width, height, tile_side),
@@ -141,6 +142,18 @@ impl Tracer {
     }
 }
 
+/// Side of a tile, pixels: at most `max`, and so small that one submission makes no more than about 2²⁸ intersection
+/// tests, if that leaves it 64 pixels. The kernel traces every ray through all generations, with a shadow ray each.
+/// 2²⁸ tests take lavapipe on two cores a second or two: so long may Ctrl-C and the progress bar wait; on a small GPU
+/// they stay far below the seconds after which a driver takes it for hung.
+fn tile_side(max: u32, primitives: usize, max_depth: u32) -> u32 {
+    const TESTS: u64 = 1 << 28;
+    let tests_per_pixel = u64::from(max_depth) * 2 * (primitives as u64 + 1);
+    let side = (TESTS / tests_per_pixel).isqrt() as u32;
+    // A multiple of the workgroup's side leaves no invocations idle at the tile's edge.
+    max.min((side / 8 * 8).max(64))
+}
+
 fn trace_tile(
     commands: &mut Commands,
     kernel: &CourseKernel,
@@ -166,4 +179,18 @@ fn trace_tile(
         })
     })?;
     timer.map(Timer::elapsed_ns).transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::tile_side;
+
+    #[test]
+    fn heavy_scenes_take_small_tiles_and_light_ones_the_largest() {
+        assert_eq!(tile_side(1024, 0, 1), 1024);
+        assert_eq!(tile_side(1024, 8, 8), 1024);
+        assert_eq!(tile_side(1024, 100, 20), 256);
+        assert_eq!(tile_side(1024, 100, 1000), 64);
+        assert_eq!(tile_side(7, 100, 1000), 7);
+    }
 }
