@@ -1,0 +1,53 @@
+use glam::DVec3;
+
+use super::intersect::{Origin, PreparedSolid};
+use super::ray::{Departure, Hit, Ray, Side};
+use crate::scene::Primitive;
+
+/// A scene's solids, ready to be met by rays; every one is tested against every ray.
+pub struct Solids(Vec<PreparedSolid>);
+
+impl Solids {
+    /// Primitives keep their order.
+    pub fn new(primitives: &[Primitive]) -> Self {
+        Self(primitives.iter().map(|primitive| PreparedSolid::new(&primitive.solid)).collect())
+    }
+
+    /// The nearest hit ahead of the ray's origin; a tie goes to the lowest index. A direction of length 0 or a ray that
+    /// is not finite meets nothing.
+    pub fn nearest(&self, ray: &Ray, departure: Departure) -> Option<Hit> {
+        let direction_squared = ray.direction.length_squared();
+        if !(direction_squared > 0.0 && direction_squared.is_finite() && ray.origin.is_finite()) {
+            return None;
+        }
+        let mut nearest: Option<Hit> = None;
+        for (primitive, solid, origin) in self.reachable(departure) {
+            let Some(hit) = solid.first_hit(ray, origin) else { continue };
+            if hit.t < nearest.map_or(f64::INFINITY, |nearest| nearest.t) {
+                let (t, point, normal) = (hit.t, hit.point, hit.normal);
+                nearest = Some(Hit { t, point, normal, primitive, face: hit.face, side: hit.side });
+            }
+        }
+        nearest
+    }
+
+    /// Whether a solid lies between a point and a light; `departure` is the point's.
+    pub fn hide(&self, light_position: DVec3, point: DVec3, departure: Departure) -> bool {
+        let ray = Ray { origin: point, direction: light_position - point };
+        self.reachable(departure).any(|(_, solid, origin)| solid.hides(light_position, &ray, origin))
+    }
+
+    /// The solids that a ray can meet at all, with what its origin is to each.
+    fn reachable(&self, departure: Departure) -> impl Iterator<Item = (u32, &PreparedSolid, Origin)> {
+        (0u32..).zip(&self.0).filter_map(move |(index, solid)| {
+            let origin = match departure {
+                Departure::Free => Origin::Free,
+                Departure::Surface { primitive, .. } if primitive != index => Origin::OtherSurface,
+                // A convex solid lies on one side of every tangent plane.
+                Departure::Surface { side: Side::Outside, .. } => return None,
+                Departure::Surface { side: Side::Inside, face, .. } => Origin::OwnInside(face),
+            };
+            Some((index, solid, origin))
+        })
+    }
+}

@@ -1,0 +1,60 @@
+use glam::DVec3;
+
+/// A half-line in the world frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ray {
+    pub origin: DVec3,
+    /// Of any length whose square is a positive finite `f64`; distances along the ray count in this length.
+    pub direction: DVec3,
+}
+
+/// On which side of a solid's surface a ray arrives or leaves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Side {
+    Outside,
+    Inside,
+}
+
+/// Part of a solid's surface.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Face {
+    /// The sphere, the cylinder's body, the cone's side.
+    Curved,
+    /// Of a box: where the coordinate of this box axis (0, 1, 2) is +half size or −half size.
+    Slab { axis: u8, positive: bool },
+    /// Of a cylinder: the base about `ends[0]` or `ends[1]`.
+    End(u8),
+    /// The cone's base disk.
+    Base,
+}
+
+/// Where a ray first meets a solid, in the world frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hit {
+    /// In lengths of the ray's direction.
+    pub t: f64,
+    pub point: DVec3,
+    /// Unit normal towards the side the ray came from.
+    pub normal: DVec3,
+    /// Index into `Scene::primitives`.
+    pub primitive: u32,
+    pub face: Face,
+    pub side: Side,
+}
+
+impl Hit {
+    /// How a reflected or a shadow ray leaves this hit.
+    pub fn departure(&self) -> Departure {
+        Departure::Surface { primitive: self.primitive, face: self.face, side: self.side }
+    }
+}
+
+/// What is known of a ray's origin.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Departure {
+    /// A point in space, taken as stored.
+    Free,
+    /// A point computed to lie on a primitive, from which the ray leaves to this side: a convex solid cannot be met
+    /// again from outside, and only its exit can be met from inside.
+    Surface { primitive: u32, face: Face, side: Side },
+}

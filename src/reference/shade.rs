@@ -1,0 +1,111 @@
+//! Equation 1.19 of the course work without refraction (DESIGN.md, «The accurate model»).
+
+use glam::DVec3;
+
+use super::camera::unit;
+use super::nearest::Solids;
+use super::path::Path;
+use super::ray::{Departure, Hit, Ray};
+use super::{BACKGROUND, LIGHT_BALL, Pixel};
+use crate::scene::{Light, Material, Primitive, Scene, Solid};
+
+/// A scene ready to be looked at along any ray.
+pub struct World<'a> {
+    scene: &'a Scene,
+    solids: Solids,
+    /// One for each light, in order.
+    light_balls: Solids,
+}
+
+impl<'a> World<'a> {
+    pub fn new(scene: &'a Scene) -> Self {
+        let balls: Vec<Primitive> = scene.lights.iter().map(ball).collect();
+        Self { scene, solids: Solids::new(&scene.primitives), light_balls: Solids::new(&balls) }
+    }
+
+    /// The nearest hit of a ray on the scene's primitives.
+    pub fn nearest(&self, ray: &Ray, departure: Departure) -> Option<Hit> {
+        self.solids.nearest(ray, departure)
+    }
+
+    /// What a primary ray of unit direction sees.
+    pub fn look_along(&self, primary: Ray) -> Pixel {
+        let mut ray = primary;
+        let mut departure = Departure::Free;
+        let mut weight = 1.0;
+        let mut color = DVec3::ZERO;
+        let mut first_hit = BACKGROUND;
+        let mut path = Path::default();
+        for generation in 0..self.scene.max_depth {
+            let hit = self.nearest(&ray, departure);
+            if generation == 0 {
+                if let Some(light) = self.light_ball_before(&ray, hit.as_ref()) {
+                    let color = finite(self.scene.lights[light as usize].intensity);
+                    path.add_light_ball(light);
+                    return Pixel { color, first_hit: LIGHT_BALL, path: path.signature() };
+                }
+                first_hit = hit.map_or(BACKGROUND, |hit| hit.primitive);
+            }
+            let Some(hit) = hit else {
+                path.add_miss();
+                color = finite(color + weight * self.scene.background);
+                break;
+            };
+            path.add_hit(&hit);
+            let material = &self.scene.primitives[hit.primitive as usize].material;
+            color = finite(color + weight * self.emitted(&hit, ray.direction, material, &mut path));
+            weight *= material.specular;
+            if weight == 0.0 {
+                break;
+            }
+            ray = Ray { origin: hit.point, direction: unit(reflected(ray.direction, hit.normal)) };
+            departure = hit.departure();
+        }
+        Pixel { color, first_hit, path: path.signature() }
+    }
+
+    /// E of the model: what a hit sends back along the ray without reflections, linear RGB.
+    fn emitted(&self, hit: &Hit, ray_direction: DVec3, material: &Material, path: &mut Path) -> DVec3 {
+        let mut sum = material.ambient * material.color;
+        for light in &self.scene.lights {
+            // NaN for a light at the hit point, which therefore gives nothing.
+            let to_light = unit(light.position - hit.point);
+            let cosine = hit.normal.dot(to_light);
+            let lit = cosine > 0.0 && !self.solids.hide(light.position, hit.point, hit.departure());
+            path.add_light(lit);
+            if lit {
+                let mirrored_light = reflected(-to_light, hit.normal);
+                let highlight = fifth_power(mirrored_light.dot(-ray_direction).max(0.0));
+                let received = material.diffuse * material.color * cosine + material.specular * highlight;
+                sum = finite(sum + received * light.intensity);
+            }
+        }
+        sum
+    }
+
+    /// The light whose ball is nearer than any primitive.
+    fn light_ball_before(&self, ray: &Ray, hit: Option<&Hit>) -> Option<u32> {
+        let ball = self.light_balls.nearest(ray, Departure::Free)?;
+        hit.is_none_or(|hit| ball.t < hit.t).then_some(ball.primitive)
+    }
+}
+
+fn ball(light: &Light) -> Primitive {
+    let solid = Solid::Sphere { center: light.position, radius: Light::BALL_RADIUS };
+    Primitive { name: None, solid, material: Material::default() }
+}
+
+/// Mirror image of a direction in the plane across a unit normal.
+fn reflected(direction: DVec3, normal: DVec3) -> DVec3 {
+    direction - 2.0 * direction.dot(normal) * normal
+}
+
+fn fifth_power(x: f64) -> f64 {
+    let square = x * x;
+    square * square * x
+}
+
+/// Overflow stops at the largest number, so that no sum becomes infinite or, by ∞ − ∞, NaN.
+fn finite(color: DVec3) -> DVec3 {
+    color.clamp(DVec3::MIN, DVec3::MAX)
+}

@@ -1,0 +1,128 @@
+//! Solids and rays over all the scales the bars are set for.
+
+use glam::DVec3;
+use zerkalo::reference::Ray;
+use zerkalo::scene::{Solid, SolidKind};
+
+use super::{Subject, anchor};
+
+/// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine.
+pub struct Random(pub u64);
+
+impl Random {
+    fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    pub fn chance(&mut self, probability: f64) -> bool {
+        self.uniform(0.0, 1.0) < probability
+    }
+
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.bits() >> 11) as f64 * f64::EPSILON / 2.0
+    }
+
+    /// 10^U(low, high)
+    pub fn magnitude(&mut self, low: f64, high: f64) -> f64 {
+        10f64.powf(self.uniform(low, high))
+    }
+
+    pub fn signed_magnitude(&mut self, low: f64, high: f64) -> f64 {
+        let magnitude = self.magnitude(low, high);
+        if self.chance(0.5) { magnitude } else { -magnitude }
+    }
+
+    pub fn vector(&mut self, mut component: impl FnMut(&mut Self) -> f64) -> DVec3 {
+        DVec3::new(component(self), component(self), component(self))
+    }
+
+    pub fn unit_vector(&mut self) -> DVec3 {
+        loop {
+            let candidate = self.vector(|random| random.uniform(-1.0, 1.0));
+            if (1e-3..=1.0).contains(&candidate.length()) {
+                return candidate.normalize();
+            }
+        }
+    }
+
+    /// Coordinates ±10^U(−8, 8), lengths 10^U(−4, 4), any pose, any proportion.
+    pub fn solid(&mut self, kind: SolidKind) -> Solid {
+        let position = self.vector(|random| random.signed_magnitude(-8.0, 8.0));
+        match kind {
+            SolidKind::Sphere => Solid::Sphere { center: position, radius: self.magnitude(-4.0, 4.0) },
+            SolidKind::Box => Solid::Box {
+                center: position,
+                half_size: self.vector(|random| random.magnitude(-4.0, 4.0)),
+                rotation_degrees: self.vector(|random| random.uniform(0.0, 360.0)),
+            },
+            SolidKind::Cylinder => {
+                let axis = self.unit_vector() * self.magnitude(-4.0, 4.0);
+                Solid::Cylinder { ends: [position, position + axis], radius: self.magnitude(-4.0, 4.0) }
+            }
+            SolidKind::Cone => {
+                let half_angle_degrees = match self.uniform(0.0, 3.0) {
+                    narrow if narrow < 1.0 => self.magnitude(-3.0, 1.0),
+                    wide if wide < 2.0 => 90.0 - self.magnitude(-1.0, 1.0),
+                    _ => self.uniform(5.0, 85.0),
+                };
+                let (axis, height) = (self.unit_vector(), self.magnitude(-4.0, 4.0));
+                Solid::Cone { apex: position, axis, height, half_angle_degrees }
+            }
+        }
+    }
+
+    /// From anywhere (a third from near the solid, a sixth from inside), towards the solid's surroundings; half of the
+    /// rays just past or just onto its silhouette as the reference sees it.
+    pub fn ray_at(&mut self, subject: &Subject) -> Ray {
+        let (middle, size) = (middle(&subject.solid), subject.size);
+        let origin = match self.uniform(0.0, 6.0) {
+            inside if inside < 1.0 => middle + self.unit_vector() * least_length(&subject.solid) * inside,
+            near if near < 3.0 => middle + self.unit_vector() * size * self.magnitude(-2.0, 3.0),
+            _ => self.vector(|random| random.signed_magnitude(-8.0, 8.0)),
+        };
+        let length = self.magnitude(-1.0, 1.0);
+        let towards = |target: DVec3| Ray { origin, direction: (target - origin).normalize() * length };
+        if self.chance(0.5) {
+            return towards(middle + self.unit_vector() * size * self.uniform(0.0, 1.2));
+        }
+        let sideways = (middle - origin).cross(self.unit_vector()).normalize() * 4.0 * size;
+        let silhouette = silhouette(subject, |offset| towards(middle + sideways * offset));
+        towards(middle + sideways * (silhouette * (1.0 + self.signed_magnitude(-16.0, -2.0))))
+    }
+}
+
+/// The offset in (0, 1) where a fan of rays leaves the solid.
+fn silhouette(subject: &Subject, ray_at: impl Fn(f64) -> Ray) -> f64 {
+    let (mut hits, mut misses) = (0.0, 1.0);
+    for _ in 0..50 {
+        let middle = 0.5 * (hits + misses);
+        if subject.cast(&ray_at(middle)).is_some() {
+            hits = middle;
+        } else {
+            misses = middle;
+        }
+    }
+    hits
+}
+
+/// A point inside the solid.
+pub fn middle(solid: &Solid) -> DVec3 {
+    match *solid {
+        Solid::Cone { apex, axis, height, .. } => apex + axis * height / 2.0,
+        _ => anchor(solid),
+    }
+}
+
+/// The radius of a ball about [`middle`] that is about as large as the solid holds.
+fn least_length(solid: &Solid) -> f64 {
+    match *solid {
+        Solid::Sphere { radius, .. } => radius,
+        Solid::Box { half_size, .. } => half_size.min_element(),
+        Solid::Cylinder { ends: [first, second], radius } => radius.min((second - first).length() / 2.0),
+        Solid::Cone { height, half_angle_degrees, .. } => height / 2.0 * half_angle_degrees.to_radians().sin(),
+    }
+}
