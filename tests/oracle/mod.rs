@@ -55,11 +55,6 @@ impl Subject {
         self.reference.nearest(ray, Departure::Free)
     }
 
-    /// The t of the first crossing.
-    pub fn true_t(&self, ray: &Ray) -> Option<f64> {
-        self.exact.first_hit(ray).map(|crossing| to_f64(&crossing.t))
-    }
-
     /// Distance of a point from the surface.
     pub fn distance(&self, point: DVec3) -> f64 {
         to_f64(&self.exact.distance(&Vector::new(point)))

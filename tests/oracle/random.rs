@@ -84,6 +84,12 @@ impl Random {
             near if near < 3.0 => middle + self.unit_vector() * size * self.magnitude(-2.0, 3.0),
             _ => self.vector(|random| random.signed_magnitude(-8.0, 8.0)),
         };
+        self.ray_from(subject, origin)
+    }
+
+    /// Towards the solid's surroundings, every second ray close to the silhouette.
+    pub fn ray_from(&mut self, subject: &Subject, origin: DVec3) -> Ray {
+        let (middle, size) = (middle(&subject.solid), subject.size);
         let length = self.magnitude(-1.0, 1.0);
         let towards = |target: DVec3| Ray { origin, direction: (target - origin).normalize() * length };
         if self.chance(0.5) {

@@ -150,10 +150,14 @@ impl TrueSolid {
         crossings
     }
 
-    /// The first crossing ahead of the ray's origin.
+    /// The first crossing ahead of the ray's origin; of two at once, as on a plate without thickness, the entering one.
     pub fn first_hit(&self, ray: &Ray) -> Option<Crossing> {
+        let direction = Vector::new(ray.direction);
+        let enters = |crossing: &Crossing| crossing.normal.dot(&direction) < real(0.0);
         let ahead = self.crossings(ray).into_iter().filter(|crossing| crossing.t > real(0.0));
-        ahead.reduce(|best, other| if other.t < best.t { other } else { best })
+        ahead.reduce(|best, other| {
+            if other.t < best.t || (other.t == best.t && enters(&other) && !enters(&best)) { other } else { best }
+        })
     }
 
     /// Distance of a point from the surface, ≥ 0 on either side.
