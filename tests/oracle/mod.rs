@@ -60,6 +60,16 @@ impl Subject {
         to_f64(&self.exact.distance(&Vector::new(point)))
     }
 
+    /// The radius of a ball about [`random::middle`] that is about as large as the solid holds.
+    pub fn least_length(&self) -> f64 {
+        match self.solid {
+            Solid::Sphere { radius, .. } => radius,
+            Solid::Box { half_size, .. } => half_size.min_element(),
+            Solid::Cylinder { ends: [first, second], radius } => radius.min((second - first).length() / 2.0),
+            Solid::Cone { height, half_angle_degrees, .. } => height / 2.0 * half_angle_degrees.to_radians().sin(),
+        }
+    }
+
     /// Whether hit or miss hangs on less than `distance`: the solid grown by it is hit, shrunk by it missed.
     fn is_within_band(&self, distance: f64, ray: &Ray) -> bool {
         let is_hit = |grown_by: f64| TrueSolid::new(&self.solid, grown_by).first_hit(ray).is_some();

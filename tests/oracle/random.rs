@@ -49,6 +49,17 @@ impl Random {
         }
     }
 
+    /// Into the half-space about a normal; every third at 10^U(−16, 0) to the surface.
+    pub fn direction_into(&mut self, normal: DVec3) -> DVec3 {
+        let sample = self.unit_vector();
+        let height = normal.dot(sample);
+        if self.chance(1.0 / 3.0) {
+            sample - normal * (height - self.magnitude(-16.0, 0.0))
+        } else {
+            sample * height.signum()
+        }
+    }
+
     /// Coordinates ±10^U(−8, 8), lengths 10^U(−4, 4), any pose, any proportion.
     pub fn solid(&mut self, kind: SolidKind) -> Solid {
         let position = self.vector(|random| random.signed_magnitude(-8.0, 8.0));
@@ -80,7 +91,7 @@ impl Random {
     pub fn ray_at(&mut self, subject: &Subject) -> Ray {
         let (middle, size) = (middle(&subject.solid), subject.size);
         let origin = match self.uniform(0.0, 6.0) {
-            inside if inside < 1.0 => middle + self.unit_vector() * least_length(&subject.solid) * inside,
+            inside if inside < 1.0 => middle + self.unit_vector() * subject.least_length() * inside,
             near if near < 3.0 => middle + self.unit_vector() * size * self.magnitude(-2.0, 3.0),
             _ => self.vector(|random| random.signed_magnitude(-8.0, 8.0)),
         };
@@ -120,15 +131,5 @@ pub fn middle(solid: &Solid) -> DVec3 {
     match *solid {
         Solid::Cone { apex, axis, height, .. } => apex + axis * height / 2.0,
         _ => anchor(solid),
-    }
-}
-
-/// The radius of a ball about [`middle`] that is about as large as the solid holds.
-fn least_length(solid: &Solid) -> f64 {
-    match *solid {
-        Solid::Sphere { radius, .. } => radius,
-        Solid::Box { half_size, .. } => half_size.min_element(),
-        Solid::Cylinder { ends: [first, second], radius } => radius.min((second - first).length() / 2.0),
-        Solid::Cone { height, half_angle_degrees, .. } => height / 2.0 * half_angle_degrees.to_radians().sin(),
     }
 }

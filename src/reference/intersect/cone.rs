@@ -90,6 +90,14 @@ impl Cone {
         self.cos * self.cos * (reach - tilt) * (reach + tilt)
     }
 
+    pub fn depth(&self, point: DoubleDouble3) -> f64 {
+        let along = point.dot(self.axis);
+        let radial = (point - self.axis * along).length_squared().sqrt();
+        // `along` counts only beyond the apex, where the side's lines come near.
+        let to_side = (along * self.sin - radial * self.cos).rounded();
+        to_side.min(along.rounded()).min((self.height - along).rounded())
+    }
+
     /// Outward unit normal at a point of the side; at the apex, where there is none, against the axis.
     pub fn side_normal(&self, point: DoubleDouble3) -> DVec3 {
         let radial = point - self.axis * point.dot(self.axis);

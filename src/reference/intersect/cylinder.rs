@@ -54,6 +54,12 @@ impl Cylinder {
         ))
     }
 
+    pub fn depth(&self, point: DoubleDouble3) -> f64 {
+        let along = point.dot(self.axis);
+        let radial = (point - self.axis * along).length_squared().sqrt();
+        (self.radius - radial).rounded().min((self.half_length - along.abs()).rounded())
+    }
+
     /// Outward unit normal at a point of the body.
     pub fn body_normal(&self, point: DoubleDouble3) -> DVec3 {
         (point - self.axis * point.dot(self.axis)).normalized().rounded()

@@ -184,51 +184,79 @@ impl PreparedSolid {
     }
 
     /// First point ahead of the ray's origin: where the ray enters, or leaves if it starts inside.
+    ///
+    /// An origin within rounding of the surface is on it. The bound is NUMERICS.md's t > 8u(|p|∞ + S)/|n·w|, set against
+    /// depths instead: beside an edge the face that the ray leaves by need not be the one that its origin is on.
     pub fn first_hit(&self, ray: &Ray, origin: Origin) -> Option<SolidHit> {
+        let relative_error = match origin {
+            Origin::Free => SOLVE_ERROR,
+            Origin::OtherSurface => SURFACE_ERROR,
+            Origin::OwnInside(face) => return Some(self.exit_from_inside(ray, face)),
+        };
         if !self.may_meet(ray) {
             return None;
         }
         let line = RecentredLine::new(ray, self.anchor);
-        let interval = self.interval(&line);
-        if let Origin::OwnInside(face) = origin {
-            // Rounding may have put the origin a little beyond another face, where the interval is empty or ends
-            // behind; but a ray inside a convex solid does leave it: then it does so where it starts.
-            let exit = interval.map(|interval| self.hit_at(&line, interval.far, Side::Inside));
-            return match exit {
-                Some(hit) if hit.t > 0.0 => Some(hit),
-                Some(hit) => Some(SolidHit { t: 0.0, point: ray.origin, ..hit }),
-                None => Some(self.hit_where_ray_starts(ray, face)),
-            };
+        let interval = self.interval(&line)?;
+        if interval.near.s > interval.far.s {
+            return None;
         }
-        let interval = interval.filter(|interval| interval.near.s <= interval.far.s)?;
-        let entry = self.hit_at(&line, interval.near, Side::Outside);
-        if self.is_ahead(&entry, ray, origin) {
-            return Some(entry);
+        let position_error = self.position_error(ray.origin, relative_error);
+        if self.depth(DoubleDouble3::from(ray.origin) - self.anchor) < -position_error {
+            let entry = self.hit_at(&line, interval.near, Side::Outside);
+            return (entry.t > 0.0).then_some(entry);
         }
+        // On the surface or inside, no entry is ahead.
         let exit = self.hit_at(&line, interval.far, Side::Inside);
-        self.is_ahead(&exit, ray, origin).then_some(exit)
+        (exit.t > 0.0 && self.deepest_ahead(&line, interval) > position_error).then_some(exit)
+    }
+
+    /// Where a ray that starts on the inner side of `face` leaves. Rounding may have put its origin a little beyond this
+    /// or another face, where the interval is empty or ends behind; but a ray inside a convex solid does leave it: then
+    /// it does so where it starts.
+    fn exit_from_inside(&self, ray: &Ray, face: Face) -> SolidHit {
+        let line = RecentredLine::new(ray, self.anchor);
+        match self.interval(&line).map(|interval| self.hit_at(&line, interval.far, Side::Inside)) {
+            Some(exit) if exit.t > 0.0 => exit,
+            Some(exit) => SolidHit { t: 0.0, point: ray.origin, ..exit },
+            None => {
+                let from_anchor = DoubleDouble3::from(ray.origin) - self.anchor;
+                let normal = self.normal(face, from_anchor, Side::Inside);
+                SolidHit { t: 0.0, point: ray.origin, normal, face, side: Side::Inside }
+            }
+        }
     }
 
     /// Whether the first hit of a ray whose direction leads from its origin to `target` lies before the target. A target
     /// on this solid's surface, to rounding, is not hidden by it from the side the ray comes from.
     pub fn hides(&self, target: DVec3, ray: &Ray, origin: Origin) -> bool {
-        self.first_hit(ray, origin).is_some_and(|hit| self.clears_face(&hit, 1.0 - hit.t, ray, target, SURFACE_ERROR))
+        self.first_hit(ray, origin).is_some_and(|hit| {
+            let height_of_target = (1.0 - hit.t) * hit.normal.dot(ray.direction).abs();
+            height_of_target > self.position_error(target, SURFACE_ERROR)
+        })
     }
 
-    fn is_ahead(&self, hit: &SolidHit, ray: &Ray, origin: Origin) -> bool {
-        let error = match origin {
-            Origin::Free => SOLVE_ERROR,
-            Origin::OtherSurface | Origin::OwnInside(_) => SURFACE_ERROR,
-        };
-        self.clears_face(hit, hit.t, ray, ray.origin, error)
+    /// How far a point that was computed to lie on this solid's surface may be off it.
+    fn position_error(&self, point: DVec3, relative_error: f64) -> f64 {
+        relative_error * (point.abs().max_element() + self.size)
     }
 
-    /// Whether a point of the ray, `separation` lengths of its direction from `hit`, is off the hit's tangent plane by
-    /// more than rounding explains: a point is known to `error`·(|point|∞ + size), and its height over the plane is
-    /// separation·|n·direction|.
-    fn clears_face(&self, hit: &SolidHit, separation: f64, ray: &Ray, point: DVec3, error: f64) -> bool {
-        let height = separation * hit.normal.dot(ray.direction).abs();
-        height > error * (point.abs().max_element() + self.size)
+    /// At least half of the greatest depth that the line reaches from its origin on: depth is concave along a chord, and
+    /// this is the depth at its middle.
+    fn deepest_ahead(&self, line: &RecentredLine, interval: Interval) -> f64 {
+        let start = interval.near.s.max(-line.t_closest);
+        let middle = (start + interval.far.s) * 0.5;
+        self.depth(line.closest + line.direction * middle)
+    }
+
+    /// Distance from a point inside to the surface; negative outside, where its size is at most the distance.
+    fn depth(&self, from_anchor: DoubleDouble3) -> f64 {
+        match &self.shape {
+            Shape::Sphere(sphere) => sphere.depth(from_anchor),
+            Shape::Box(oriented_box) => oriented_box.depth(from_anchor),
+            Shape::Cylinder(cylinder) => cylinder.depth(from_anchor),
+            Shape::Cone(cone) => cone.depth(from_anchor),
+        }
     }
 
     /// A quick `f64` test that says no only where the line passes the bounding sphere, or the ray leads away from it.
@@ -263,12 +291,6 @@ impl PreparedSolid {
             face: end.face,
             side,
         }
-    }
-
-    fn hit_where_ray_starts(&self, ray: &Ray, face: Face) -> SolidHit {
-        let from_anchor = DoubleDouble3::from(ray.origin) - self.anchor;
-        let normal = self.normal(face, from_anchor, Side::Inside);
-        SolidHit { t: 0.0, point: ray.origin, normal, face, side: Side::Inside }
     }
 
     /// Unit normal towards `side` at a point of a face.

@@ -2,8 +2,7 @@ use glam::DVec3;
 
 use super::{Interval, RecentredLine};
 use crate::reference::angle::world_from_box_columns;
-use crate::reference::double_double::DoubleDouble;
-use crate::reference::double_double::DoubleDouble3;
+use crate::reference::double_double::{DoubleDouble, DoubleDouble3};
 use crate::reference::ray::Face;
 
 /// About its centre; a half size may be 0.
@@ -34,6 +33,11 @@ impl OrientedBox {
             inside = inside.intersection(slab);
         }
         Some(inside)
+    }
+
+    pub fn depth(&self, point: DoubleDouble3) -> f64 {
+        let below_faces = self.half_size.iter().zip(&self.world_axes);
+        below_faces.map(|(&half, &axis)| (half - point.dot(axis).abs()).rounded()).fold(f64::INFINITY, f64::min)
     }
 
     /// Outward unit normal of a slab face.

@@ -1,5 +1,5 @@
 use super::{Interval, RecentredLine};
-use crate::reference::double_double::DoubleDouble;
+use crate::reference::double_double::{DoubleDouble, DoubleDouble3};
 use crate::reference::ray::Face;
 
 /// About its centre.
@@ -20,5 +20,9 @@ impl Sphere {
         }
         let s = (half_chord_squared / line.direction_squared).sqrt();
         Some(Interval::new(-s, Face::Curved, s, Face::Curved))
+    }
+
+    pub fn depth(&self, point: DoubleDouble3) -> f64 {
+        (self.radius - point.length_squared().sqrt()).rounded()
     }
 }

@@ -1,0 +1,73 @@
+//! What the tests of whole pictures are made of.
+
+#![allow(dead_code, reason = "each test crate takes what it needs")]
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+use zerkalo::reference::{Image64, Pixel, Ray, World, render};
+use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, Solid, SolidKind};
+
+pub fn picture(scene: &Scene, width: u32, height: u32) -> Image64 {
+    render(scene, width, height, &|_| ControlFlow::Continue(())).expect("a picture")
+}
+
+pub fn material(ambient: f64, diffuse: f64, specular: f64) -> Material {
+    Material { color: DVec3::new(0.3, 0.5, 0.7), ambient, diffuse, specular }
+}
+
+pub fn mirror() -> Material {
+    material(0.0, 0.0, 1.0)
+}
+
+pub fn primitive(solid: Solid, material: Material) -> Primitive {
+    Primitive { name: None, solid, material }
+}
+
+pub fn sphere(center: DVec3, radius: f64) -> Solid {
+    Solid::Sphere { center, radius }
+}
+
+pub fn cube(center: DVec3, half_size: f64) -> Solid {
+    Solid::Box { center, half_size: DVec3::splat(half_size), rotation_degrees: DVec3::ZERO }
+}
+
+pub fn light(x: f64, y: f64, z: f64) -> Light {
+    Light { position: DVec3::new(x, y, z), intensity: DVec3::ONE }
+}
+
+/// Two of each kind around the origin, mirrors of each other, lit from two sides.
+pub fn mixed_scene() -> Scene {
+    let mut primitives = Vec::new();
+    for (place, kind) in SolidKind::ALL.into_iter().enumerate() {
+        for (row, &y) in [0.0, 2.5].iter().enumerate() {
+            let center = DVec3::new(2.5 * place as f64 - 3.75, y - 1.25, 0.3 * row as f64);
+            let solid = match kind {
+                SolidKind::Sphere => sphere(center, 1.0),
+                SolidKind::Box => Solid::Box {
+                    center,
+                    half_size: DVec3::new(0.8, 0.7, 0.6),
+                    rotation_degrees: DVec3::new(20.0, 35.0, 50.0),
+                },
+                SolidKind::Cylinder => {
+                    Solid::Cylinder { ends: [center, center + DVec3::new(0.5, 0.7, -0.4)], radius: 0.7 }
+                }
+                SolidKind::Cone => {
+                    let axis = DVec3::new(0.48, -0.6, 0.64);
+                    Solid::Cone { apex: center - axis, axis, height: 1.5, half_angle_degrees: 30.0 }
+                }
+            };
+            primitives.push(primitive(solid, material(0.1, 0.5, 0.4)));
+        }
+    }
+    Scene {
+        camera: Camera { position: DVec3::new(0.0, 0.0, -14.0), ..Camera::default() },
+        lights: vec![light(5.0, 8.0, -30.0), light(-40.0, 2.0, -25.0)],
+        primitives,
+        ..Scene::default()
+    }
+}
+
+pub fn look(scene: &Scene, origin: DVec3, direction: DVec3) -> Pixel {
+    World::new(scene).look_along(Ray { origin, direction: direction.normalize() })
+}
