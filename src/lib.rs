@@ -1,8 +1,8 @@
 //! A low-level Vulkan ray tracer for simple solids with adjustable reflection.
 //!
 //! The modules stand in the order the data takes: a [`scene`] is read or edited, a [`tracer`] draws it on a device
-//! that [`gpu`] opened or the [`reference`](mod@reference) on the CPU, the picture is a [`frame`], which is saved and [measured](measure); each [`command`] goes that
-//! way or a part of it.
+//! that [`gpu`] opened, or the [`reference`](mod@reference) on the CPU, the picture is a [`frame`], which is saved and
+//! [measured](measure); each [`command`] goes that way or a part of it.
 
 pub mod scene;
 

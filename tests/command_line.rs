@@ -147,6 +147,27 @@ fn without_repeat_the_one_render_is_timed_and_told_in_a_sentence() {
 }
 
 #[test]
+fn the_reference_draws_without_a_device_and_says_so() {
+    let place = Place::new();
+    let mut command = place.command(&render("four", "x.exr", &["--size", "80x35", "--kernel", "reference", "--json"]));
+    command.env("VK_DRIVER_FILES", "/nonexistent").env("VK_ICD_FILENAMES", "/nonexistent");
+    let run = Run::of(command.output().unwrap());
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    let report: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    assert_eq!(report["kernel"], "reference");
+    assert_eq!((&report["device"], &report["gpu_time_ns"]), (&"CPU".into(), &serde_json::Value::Null));
+    assert!(report["samples_ns"].as_array().unwrap().is_empty());
+    let frame = Frame::load(&place.path("x.exr")).unwrap();
+    let background = frame.pixels()[0];
+    assert!(frame.pixels().iter().any(|&pixel| pixel != background), "the solids are there");
+
+    for option in [&["--repeat", "2"][..], &["--validate"]] {
+        let arguments = [&["--size", "80x35", "--kernel", "reference"], option].concat();
+        place.assert_refused(&render("four", "y.exr", &arguments), 2, &[option[0]]);
+    }
+}
+
+#[test]
 fn a_scene_file_and_the_gallery_scene_of_its_name_give_the_same_picture() {
     let place = Place::new();
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/several.toml");

@@ -12,8 +12,9 @@ use super::interrupt::Listener;
 use super::{DeviceArgs, print_json, scene_named};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Message, Validation};
-use crate::scene::DEPTH_LIMIT;
-use crate::tracer::{Settings, Tracer};
+use crate::reference::{self, RenderError};
+use crate::scene::{DEPTH_LIMIT, Scene};
+use crate::tracer::{Settings, Tracer, TracerError};
 
 /// Which of the program's tracers draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
@@ -22,6 +23,8 @@ pub enum Kernel {
     /// The course work's, quirks and all
     #[default]
     Course,
+    /// The accurate model in f64 on the CPU, without Vulkan: the truth, slowly
+    Reference,
 }
 
 /// Render a scene into a PNG (display values) or EXR (linear values) file
@@ -70,30 +73,71 @@ struct Report<'a> {
     kernel: Kernel,
     device: &'a str,
     driver: &'a str,
-    /// Median of `samples_ns`; null where the device has no timestamps.
+    /// Median of `samples_ns`; null where there is none: no timestamps, or no Vulkan device.
     gpu_time_ns: Option<u64>,
     /// GPU time of each repeat, in order; without `--repeat` of the one, cold, render.
-    samples_ns: Vec<u64>,
+    samples_ns: &'a [u64],
     validation_messages: usize,
+}
+
+/// A picture, what drew it, and what is to be told of that.
+struct Rendered {
+    frame: Frame,
+    device: String,
+    driver: String,
+    samples_ns: Vec<u64>,
+    messages: Vec<Message>,
 }
 
 /// Renders, saves, reports. Fails after saving when validation had anything to say.
 pub fn run(args: &RenderArgs) -> Result<()> {
     Frame::check_output_path(&args.output)?;
     let scene = scene_named(&args.scene)?;
+    let rendered = match args.kernel {
+        Kernel::Course => on_device(args, &scene)?,
+        Kernel::Reference => on_cpu(args, scene)?,
+    };
+    rendered.frame.save(&args.output)?;
+    report(args, &rendered)?;
+    refuse_messages(&rendered.messages)
+}
+
+fn on_device(args: &RenderArgs, scene: &Scene) -> Result<Rendered> {
     let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
     let device = Device::open(args.device.device.as_deref(), validation)?;
-    let description = device.description().clone();
+    let DeviceDescription { name, driver, .. } = device.description().clone();
     let messages = device.messages().clone();
 
-    let mut tracer = Tracer::new(&device, &scene, &settings(args))?;
+    let mut tracer = Tracer::new(&device, scene, &settings(args))?;
     let (frame, samples_ns) = render(&mut tracer, args.repeat)?;
     // Destroyed before the messages are counted: the layers check that too.
     drop((tracer, device));
-    frame.save(&args.output)?;
+    Ok(Rendered { frame, device: name, driver, samples_ns, messages: messages.to_vec() })
+}
 
-    report(args, &description, samples_ns, messages.count())?;
-    refuse_messages(&messages.to_vec())
+fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
+    for (option, is_given) in [("--repeat", args.repeat.is_some()), ("--validate", args.validate)] {
+        if is_given {
+            return Err(TracerError::Refused(format!("{option} is for kernels on a Vulkan device")).into());
+        }
+    }
+    scene.max_depth = args.max_depth.unwrap_or(scene.max_depth);
+    let (width, height) = args.size;
+    let mut frame = Frame::new(width, height)?;
+    let bar = progress_bar(u64::from(height));
+    let listener = Listener::start();
+    let image = reference::render(&scene, width, height, &|rows_done| {
+        bar.set_position(u64::from(rows_done));
+        if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    bar.finish_and_clear();
+    let image = image.map_err(|error| match error {
+        RenderError::Cancelled => TracerError::Stopped.into(),
+        error => anyhow::Error::from(error),
+    })?;
+    frame.pixels_mut().copy_from_slice(&image.to_f32());
+    let driver = concat!("zerkalo ", env!("CARGO_PKG_VERSION"), ", f64").to_owned();
+    Ok(Rendered { frame, device: "CPU".to_owned(), driver, samples_ns: Vec::new(), messages: Vec::new() })
 }
 
 fn settings(args: &RenderArgs) -> Settings {
@@ -131,39 +175,30 @@ fn progress_bar(pixels: u64) -> ProgressBar {
     bar
 }
 
-fn report(
-    args: &RenderArgs,
-    device: &DeviceDescription,
-    samples_ns: Vec<u64>,
-    validation_messages: usize,
-) -> Result<()> {
-    let gpu_time_ns = median(&samples_ns);
+fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
+    let Rendered { device, driver, samples_ns, messages, .. } = rendered;
+    let gpu_time_ns = median(samples_ns);
     let (width, height) = args.size;
     if args.json {
-        let (device, driver) = (&device.name, &device.driver);
-        let kernel = args.kernel;
         return print_json(&Report {
             width,
             height,
-            kernel,
+            kernel: args.kernel,
             device,
             driver,
             gpu_time_ns,
             samples_ns,
-            validation_messages,
+            validation_messages: messages.len(),
         });
     }
-    let time =
-        gpu_time_ns.map_or("GPU time unknown".to_owned(), |time| format!("{:.2} ms GPU time", time as f64 / 1e6));
+    let time = gpu_time_ns.map_or("no GPU time".to_owned(), |time| format!("{:.2} ms GPU time", time as f64 / 1e6));
     let of = match args.repeat {
-        Some(_) => format!("median of {}", samples_ns.len()),
-        None => "with the driver's warm-up".to_owned(),
+        Some(_) => format!(", median of {}", samples_ns.len()),
+        None if samples_ns.is_empty() => String::new(),
+        None => ", with the driver's warm-up".to_owned(),
     };
-    super::print_line(&format!(
-        "wrote {} ({width}x{height}, {}, {time}, {of})",
-        args.output.display().to_string().escape_debug(),
-        device.name
-    ))
+    let output = args.output.display().to_string();
+    super::print_line(&format!("wrote {} ({width}x{height}, {device}, {time}{of})", output.escape_debug()))
 }
 
 fn refuse_messages(messages: &[Message]) -> Result<()> {
