@@ -16,6 +16,8 @@ pub mod frame;
 
 pub mod measure;
 
+pub mod viewer;
+
 pub mod command;
 
 mod whole_file;

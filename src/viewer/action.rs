@@ -1,0 +1,99 @@
+//! What a user can ask of the window.
+
+use std::path::PathBuf;
+
+use glam::DVec3;
+
+use super::preferences::Preferences;
+use crate::scene::{Light, Material, Projection, Solid, SolidKind};
+
+/// One wish. Edits go through the undo history; a wish that cannot be granted changes nothing and shows a message.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Action {
+    // ---- Primitives. All but the first two concern the selected one.
+    /// Adds the course's default solid, which becomes the selected one.
+    Add(SolidKind),
+    Select(Option<usize>),
+    /// An empty name takes the given one away.
+    Rename(String),
+    /// To an absolute position, see [`Solid::move_to`].
+    MoveTo(DVec3),
+    /// By the course's rule, see [`Solid::rotate`]; degrees.
+    Rotate(DVec3),
+    /// New sizes or another pose of the same kind.
+    SetSolid(Solid),
+    SetMaterial(Material),
+    Duplicate,
+    Delete,
+
+    // ---- The scene around them.
+    AddLight,
+    SetLight(usize, Light),
+    DeleteLight(usize),
+    SetBackground(DVec3),
+    SetMaxDepth(u32),
+    SetProjection(Projection),
+    /// In (0, 180).
+    SetVerticalFov(f64),
+    /// Back to where the camera was when the scene was opened.
+    ResetCamera,
+
+    Undo,
+    Redo,
+
+    // ---- Files. Those that would lose changes ask first.
+    /// The course's start state.
+    New,
+    /// Asks for a file.
+    Open,
+    OpenFile(PathBuf),
+    OpenGallery(String),
+    /// To its file, or asks for one.
+    Save,
+    /// Asks for a file.
+    SaveAs,
+    SaveTo(PathBuf),
+    /// Asks for a file.
+    Screenshot,
+    ScreenshotTo(PathBuf),
+    Quit,
+
+    // ---- What a dialog is answered with.
+    /// To «there are unsaved changes».
+    AnswerUnsaved(UnsavedAnswer),
+    /// To «the last run left unsaved work»: whether to take it up.
+    AnswerRecover(bool),
+    CloseDialog,
+
+    // ---- The window.
+    SetPreferences(Preferences),
+    SetKernel(Kernel),
+    SetContinuous(bool),
+    ShowHelp(bool),
+}
+
+/// Before changes would be lost.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum UnsavedAnswer {
+    Save,
+    Discard,
+    Cancel,
+}
+
+/// What draws the picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Kernel {
+    /// The course work's, on the Vulkan device.
+    #[default]
+    Course,
+    /// The accurate model in `f64` on the CPU.
+    Reference,
+}
+
+/// What the window has to do outside its state.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Effect {
+    Quit,
+    /// Writes the picture as it is into a PNG or EXR file.
+    SaveScreenshot(PathBuf),
+}

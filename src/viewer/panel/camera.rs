@@ -1,0 +1,83 @@
+//! What surrounds the primitives, and what looks at them.
+
+use egui::Ui;
+
+use super::fields::{RGB, Scale, check, choice, group, number, number_row, vector};
+use crate::scene::{DEPTH_LIMIT, Projection};
+use crate::viewer::action::{Action, Kernel};
+use crate::viewer::preferences::Preferences;
+use crate::viewer::state::State;
+use crate::viewer::text::Words;
+
+/// Generations of a ray.
+const DEPTH: Scale = Scale::new(1.0..=DEPTH_LIMIT as f64, 1.0);
+
+pub fn show(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>) {
+    let groups = &words.groups;
+    let scene = state.document.scene();
+    group(ui, "camera", groups.camera, |ui| {
+        ui.label(groups.background);
+        let background = vector(ui, groups.background, RGB, scene.background, &Scale::INTENSITY);
+        actions.extend(background.map(Action::SetBackground));
+
+        let depth = ui.horizontal(|ui| number(ui, groups.camera, groups.max_depth, scene.max_depth.into(), &DEPTH));
+        depth.response.on_hover_text(groups.max_depth_hint);
+        // invariant: the scale keeps it in the range of `u32`.
+        actions.extend(depth.inner.map(|depth| Action::SetMaxDepth(depth.round() as u32)));
+
+        show_projection(ui, words, scene.camera.projection, actions);
+        let fov = scene.camera.vertical_fov_degrees;
+        let fov = number_row(ui, groups.camera, groups.vertical_fov, fov, &Scale::FIELD_OF_VIEW);
+        actions.extend(fov.map(Action::SetVerticalFov));
+        if ui.button(groups.reset_camera).clicked() {
+            actions.push(Action::ResetCamera);
+        }
+        show_flight(ui, words, &state.preferences, actions);
+        show_kernel(ui, words, state.kernel, actions);
+    });
+}
+
+fn show_projection(ui: &mut Ui, words: &Words, now: Projection, actions: &mut Vec<Action>) {
+    let groups = &words.groups;
+    let choices = [
+        (Projection::Course, groups.projection_course, groups.projection_course_hint),
+        (Projection::Centered, groups.projection_centered, ""),
+    ];
+    ui.label(groups.projection);
+    ui.horizontal_wrapped(|ui| {
+        for (projection, label, hint) in choices {
+            if choice(ui, now == projection, label, hint) {
+                actions.push(Action::SetProjection(projection));
+            }
+        }
+    });
+}
+
+fn show_kernel(ui: &mut Ui, words: &Words, now: Kernel, actions: &mut Vec<Action>) {
+    let groups = &words.groups;
+    let choices = [
+        (Kernel::Course, groups.kernel_course, groups.kernel_course_hint),
+        (Kernel::Reference, groups.kernel_reference, groups.kernel_reference_hint),
+    ];
+    ui.label(groups.kernel);
+    ui.horizontal_wrapped(|ui| {
+        for (kernel, label, hint) in choices {
+            if choice(ui, now == kernel, label, hint) {
+                actions.push(Action::SetKernel(kernel));
+            }
+        }
+    });
+}
+
+fn show_flight(ui: &mut Ui, words: &Words, now: &Preferences, actions: &mut Vec<Action>) {
+    let groups = &words.groups;
+    let fly_speed = number_row(ui, groups.camera, groups.fly_speed, now.fly_speed, &Scale::SPEED);
+    let is_mouse_inverted = check(ui, now.is_mouse_inverted, groups.invert_mouse);
+    if fly_speed.is_some() || is_mouse_inverted.is_some() {
+        actions.push(Action::SetPreferences(Preferences {
+            fly_speed: fly_speed.unwrap_or(now.fly_speed),
+            is_mouse_inverted: is_mouse_inverted.unwrap_or(now.is_mouse_inverted),
+            ..now.clone()
+        }));
+    }
+}

@@ -1,0 +1,27 @@
+//! What keeps the picture from being drawn anew, in a box over the last good one.
+
+use egui::{Frame, Rect, RichText, ScrollArea, Ui, UiBuilder};
+
+use super::Readings;
+use crate::viewer::text::Words;
+
+/// From the picture's edges, logical pixels.
+const MARGIN: f32 = 12.0;
+
+pub fn show(ui: &mut Ui, picture: Rect, words: &Words, readings: &Readings) {
+    let refusal = readings.refusal.map(|what| (words.refusal_title, what));
+    let shader_error = readings.shader_error.map(|what| (words.shader_error_title, what));
+    let faults: Vec<_> = refusal.into_iter().chain(shader_error).collect();
+    if faults.is_empty() || !picture.is_positive() {
+        return;
+    }
+    let mut ui = ui.new_child(UiBuilder::new().max_rect(picture.shrink(MARGIN)));
+    for (title, what) in faults {
+        Frame::popup(ui.style()).show(&mut ui, |ui| {
+            ui.label(RichText::new(title).strong().color(ui.visuals().error_fg_color));
+            // Compilers say much, and columns matter in it.
+            let text = RichText::new(what).monospace();
+            ScrollArea::both().id_salt(title).max_height(picture.height() / 3.0).show(ui, |ui| ui.label(text));
+        });
+    }
+}

@@ -1,0 +1,382 @@
+use glam::DVec3;
+use proptest::prelude::*;
+use tempfile::TempDir;
+
+use super::*;
+use crate::scene::{COURSE_PRIMITIVE_LIMIT, Camera, Light, Material, Projection, Solid, SolidKind};
+
+fn start() -> State {
+    State::new(Document::new(Scene::default(), None), Preferences::default(), None)
+}
+
+/// With a sphere, which is selected and not saved.
+fn edited() -> State {
+    let mut state = start();
+    state.apply(Action::Add(SolidKind::Sphere));
+    assert!(state.document.has_unsaved_changes());
+    state
+}
+
+fn message(state: &State) -> Option<&Message> {
+    match &state.dialog {
+        Some(Dialog::Message(message)) => Some(message),
+        _ => None,
+    }
+}
+
+fn unsaved_question(action: Action) -> Option<Dialog> {
+    Some(Dialog::Unsaved(Box::new(action)))
+}
+
+fn answer(state: &mut State, answer: UnsavedAnswer) -> Vec<Effect> {
+    state.apply(Action::AnswerUnsaved(answer))
+}
+
+/// A folder with the showcase in `showcase.toml` and nonsense in `broken.toml`.
+fn folder_with_scenes() -> TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    gallery::scene("showcase").unwrap().save(&folder.path().join("showcase.toml")).unwrap();
+    std::fs::write(folder.path().join("broken.toml"), "max_depth = 3\nmax_dpth = 3\n").unwrap();
+    folder
+}
+
+#[test]
+fn the_hundred_and_first_primitive_is_refused_in_the_course_s_words() {
+    let mut state = start();
+    for _ in 0..=COURSE_PRIMITIVE_LIMIT {
+        assert_eq!(state.dialog, None);
+        state.apply(Action::Add(SolidKind::Box));
+    }
+    assert_eq!(message(&state), Some(&Message::TooManyPrimitives));
+    assert_eq!(state.document.scene().primitives.len(), COURSE_PRIMITIVE_LIMIT);
+}
+
+#[test]
+fn an_empty_scene_and_a_missing_selection_are_told_apart() {
+    let mut state = start();
+    state.apply(Action::MoveTo(DVec3::ONE));
+    assert_eq!(message(&state), Some(&Message::NoPrimitives));
+    let mut state = edited();
+    state.apply(Action::Select(None));
+    state.apply(Action::SetMaterial(Material::default()));
+    assert_eq!(message(&state), Some(&Message::NothingSelected));
+}
+
+#[test]
+fn an_invalid_value_is_refused_in_one_line_that_names_it() {
+    let mut state = edited();
+    state.apply(Action::SetVerticalFov(180.0));
+    let expected = Message::Failure("camera: vertical_fov_degrees = 180: must be between 0 and 180".to_owned());
+    assert_eq!(message(&state), Some(&expected));
+}
+
+#[test]
+fn a_slider_s_run_ends_with_any_other_action() {
+    let mut state = edited();
+    for (depth, between) in
+        [(1, None), (2, None), (3, Some(Action::ShowHelp(true))), (4, None), (5, Some(Action::Select(Some(0))))]
+    {
+        between.map(|action| state.apply(action));
+        state.apply(Action::SetMaxDepth(depth));
+    }
+    let depths = [0; 4].map(|_| {
+        state.apply(Action::Undo);
+        state.document.scene().max_depth
+    });
+    assert_eq!(depths, [4, 2, 20, 20]);
+    assert!(!state.document.can_undo());
+    state.apply(Action::Undo);
+    assert_eq!(state.document.scene(), &Scene::default());
+}
+
+#[test]
+fn actions_under_a_dialog_are_ignored_but_the_window_s_settings() {
+    let mut state = edited();
+    state.apply(Action::SetMaxDepth(0));
+    let before = state.document.scene().clone();
+    for action in [Action::Delete, Action::Undo, Action::New, Action::Save, Action::AnswerRecover(true)] {
+        assert_eq!(state.apply(action), []);
+    }
+    assert_eq!(state.document.scene(), &before);
+    assert!(message(&state).is_some());
+    state.apply(Action::SetKernel(Kernel::Reference));
+    state.apply(Action::SetContinuous(true));
+    assert_eq!((state.kernel, state.is_continuous), (Kernel::Reference, true));
+    state.apply(Action::CloseDialog);
+    assert_eq!(state.dialog, None);
+}
+
+#[test]
+fn what_would_lose_changes_asks_first_and_cancelling_keeps_them() {
+    let path = PathBuf::from("/nowhere.toml");
+    for action in
+        [Action::New, Action::Open, Action::OpenFile(path), Action::OpenGallery("four".to_owned()), Action::Quit]
+    {
+        for cancel in [Action::AnswerUnsaved(UnsavedAnswer::Cancel), Action::CloseDialog] {
+            let mut state = edited();
+            assert_eq!(state.apply(action.clone()), []);
+            assert_eq!(state.dialog, unsaved_question(action.clone()));
+            assert_eq!(state.apply(cancel), []);
+            assert_eq!((state.dialog, state.document.scene().primitives.len()), (None, 1));
+        }
+    }
+}
+
+#[test]
+fn without_changes_nothing_is_asked() {
+    let mut state = start();
+    state.document.camera_mut().position = DVec3::ONE;
+    state.apply(Action::OpenGallery("four".to_owned()));
+    assert_eq!((state.document.scene(), state.document.path()), (&gallery::scene("four").unwrap(), None));
+    state.apply(Action::New);
+    assert_eq!(state.document.scene(), &Scene::default());
+    assert_eq!(state.apply(Action::Quit), [Effect::Quit]);
+}
+
+#[test]
+fn discarding_goes_on() {
+    let mut state = edited();
+    state.apply(Action::New);
+    assert_eq!(answer(&mut state, UnsavedAnswer::Discard), []);
+    assert_eq!((&state.dialog, state.document.scene()), (&None, &Scene::default()));
+    let mut state = edited();
+    state.apply(Action::Quit);
+    assert_eq!(answer(&mut state, UnsavedAnswer::Discard), [Effect::Quit]);
+}
+
+#[test]
+fn the_file_chosen_after_discarding_is_not_asked_about_again() {
+    let folder = folder_with_scenes();
+    let mut state = edited();
+    state.apply(Action::Open);
+    answer(&mut state, UnsavedAnswer::Discard);
+    assert_eq!(state.dialog, Some(Dialog::File(FilePurpose::Open)));
+    assert!(state.document.has_unsaved_changes(), "until a file was chosen");
+    state.apply(Action::OpenFile(folder.path().join("showcase.toml")));
+    assert_eq!((&state.dialog, state.document.scene()), (&None, &gallery::scene("showcase").unwrap()));
+}
+
+#[test]
+fn agreeing_to_a_loss_holds_for_one_file_dialog_only() {
+    let mut state = edited();
+    state.apply(Action::Open);
+    answer(&mut state, UnsavedAnswer::Discard);
+    state.apply(Action::CloseDialog);
+    let open = Action::OpenFile(PathBuf::from("/nowhere.toml"));
+    state.apply(open.clone());
+    assert_eq!(state.dialog, unsaved_question(open));
+}
+
+#[test]
+fn quitting_from_a_file_dialog_still_asks() {
+    let mut state = edited();
+    state.apply(Action::Open);
+    answer(&mut state, UnsavedAnswer::Discard);
+    assert_eq!(state.apply(Action::Quit), []);
+    assert_eq!(state.dialog, unsaved_question(Action::Quit));
+    answer(&mut state, UnsavedAnswer::Cancel);
+    let open = Action::OpenFile(PathBuf::from("/nowhere.toml"));
+    state.apply(open.clone());
+    assert_eq!(state.dialog, unsaved_question(open), "the file dialog is gone and its agreement with it");
+}
+
+#[test]
+fn an_unsaved_question_is_not_replaced() {
+    let mut state = edited();
+    state.apply(Action::New);
+    assert_eq!(state.apply(Action::Quit), []);
+    state.apply(Action::OpenFile(PathBuf::from("/nowhere.toml")));
+    state.report("could not save the screenshot\nfor many reasons");
+    assert_eq!(state.dialog, unsaved_question(Action::New));
+    answer(&mut state, UnsavedAnswer::Cancel);
+    assert_eq!(message(&state), Some(&Message::Failure("could not save the screenshot".to_owned())));
+    state.apply(Action::CloseDialog);
+    assert_eq!(state.dialog, None);
+}
+
+#[test]
+fn saving_before_quitting_asks_for_a_file_and_then_quits() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut state = edited();
+    state.apply(Action::Quit);
+    assert_eq!(answer(&mut state, UnsavedAnswer::Save), []);
+    assert_eq!(state.dialog, Some(Dialog::File(FilePurpose::Save)));
+    assert_eq!(state.apply(Action::SaveTo(folder.path().join("mine"))), [Effect::Quit]);
+    let path = folder.path().join("mine.toml");
+    assert_eq!(&Scene::load(&path).unwrap(), state.document.scene());
+    assert_eq!(state.document.path(), Some(path.as_path()));
+}
+
+#[test]
+fn saving_before_opening_writes_the_document_s_own_file() {
+    let folder = folder_with_scenes();
+    let path = folder.path().join("showcase.toml");
+    let mut state = start();
+    state.apply(Action::OpenFile(path.clone()));
+    state.apply(Action::SetMaxDepth(3));
+    state.apply(Action::New);
+    answer(&mut state, UnsavedAnswer::Save);
+    assert_eq!((state.dialog, state.document.scene()), (None, &Scene::default()));
+    assert_eq!(Scene::load(&path).unwrap().max_depth, 3);
+}
+
+#[test]
+fn what_waited_for_a_save_is_dropped_with_its_dialog() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut state = edited();
+    state.apply(Action::Quit);
+    answer(&mut state, UnsavedAnswer::Save);
+    state.apply(Action::CloseDialog);
+    state.apply(Action::Save);
+    assert_eq!(state.dialog, Some(Dialog::File(FilePurpose::Save)));
+    assert_eq!(state.apply(Action::SaveTo(folder.path().join("mine.json"))), []);
+    assert!(!state.document.has_unsaved_changes());
+}
+
+#[test]
+fn a_failed_save_is_told_and_nothing_goes_on() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["none/mine.toml", "mine.txt"] {
+        let mut state = edited();
+        state.apply(Action::Quit);
+        answer(&mut state, UnsavedAnswer::Save);
+        assert_eq!(state.apply(Action::SaveTo(folder.path().join(name))), []);
+        assert!(matches!(message(&state), Some(Message::Failure(_))));
+        assert!(state.document.has_unsaved_changes() && state.document.path().is_none());
+    }
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[test]
+fn a_file_that_cannot_be_opened_leaves_the_document_as_it_was() {
+    let folder = folder_with_scenes();
+    let mut state = start();
+    state.apply(Action::OpenFile(folder.path().join("showcase.toml")));
+    for (name, told) in [("broken.toml", "broken.toml:2: "), ("none.toml", "could not be read")] {
+        state.apply(Action::Open);
+        state.apply(Action::OpenFile(folder.path().join(name)));
+        let Some(Message::Failure(failure)) = message(&state) else { panic!("{:?}", state.dialog) };
+        assert!(failure.contains(told) && !failure.contains('\n'), "{failure}");
+        state.apply(Action::CloseDialog);
+    }
+    state.apply(Action::OpenGallery("nothing".to_owned()));
+    assert!(message(&state).is_some());
+    assert_eq!(state.document.scene(), &gallery::scene("showcase").unwrap());
+    assert_eq!(state.document.path(), Some(folder.path().join("showcase.toml").as_path()));
+}
+
+#[test]
+fn a_screenshot_goes_into_a_picture_file() {
+    let mut state = edited();
+    state.apply(Action::Screenshot);
+    assert_eq!(state.dialog, Some(Dialog::File(FilePurpose::Screenshot)));
+    for (given, meant) in [("/a/b", "/a/b.png"), ("/a/b.EXR", "/a/b.EXR"), ("/a/b.png", "/a/b.png")] {
+        let effects = state.apply(Action::ScreenshotTo(PathBuf::from(given)));
+        assert_eq!((effects, &state.dialog), (vec![Effect::SaveScreenshot(PathBuf::from(meant))], &None));
+    }
+    assert_eq!(state.apply(Action::ScreenshotTo(PathBuf::from("/a/b.jpg"))), []);
+    assert!(matches!(message(&state), Some(Message::Failure(_))));
+}
+
+#[test]
+fn names_without_an_extension_get_the_usual_one() {
+    let completed = |purpose: FilePurpose, name: &str| purpose.completed(PathBuf::from(name));
+    assert_eq!(completed(FilePurpose::Save, "a"), PathBuf::from("a.toml"));
+    assert_eq!(completed(FilePurpose::Save, "a."), PathBuf::from("a.toml"));
+    assert_eq!(completed(FilePurpose::Save, "a.b/сцена"), PathBuf::from("a.b/сцена.toml"));
+    assert_eq!(completed(FilePurpose::Save, "a.json"), PathBuf::from("a.json"));
+    assert_eq!(completed(FilePurpose::Open, "a"), PathBuf::from("a"));
+}
+
+#[test]
+fn recovered_work_is_taken_up_when_wanted() {
+    let recovered = || Document::recovered(gallery::scene("four").unwrap(), Some(PathBuf::from("/a.toml")));
+    let asked = || State::new(Document::new(Scene::default(), None), Preferences::default(), Some(recovered()));
+    let mut state = asked();
+    for action in [Action::CloseDialog, Action::New, Action::Add(SolidKind::Cone)] {
+        state.apply(action);
+        assert_eq!(state.dialog, Some(Dialog::Recover), "it must be answered");
+    }
+    state.apply(Action::AnswerRecover(true));
+    assert_eq!((&state.dialog, state.document.scene()), (&None, recovered().scene()));
+    assert!(state.document.has_unsaved_changes());
+
+    let mut state = asked();
+    assert_eq!(state.apply(Action::Quit), [Effect::Quit]);
+    assert_eq!(state.dialog, Some(Dialog::Recover), "the question stays for the next run");
+    state.apply(Action::AnswerRecover(false));
+    assert_eq!((&state.dialog, state.document.scene()), (&None, &Scene::default()));
+    state.apply(Action::AnswerRecover(true));
+    assert!(!state.document.has_unsaved_changes());
+}
+
+#[test]
+fn preferences_are_clamped() {
+    let mut state = start();
+    state.apply(Action::SetPreferences(Preferences { ui_scale: 100.0, ..Preferences::default() }));
+    assert_eq!(state.preferences.ui_scale, 3.0);
+}
+
+fn any_action() -> impl Strategy<Value = Action> {
+    let number = || prop_oneof![8 => (-4.0..4.0).prop_map(|x: f64| (x * 4.0).round() / 4.0), 1 => Just(f64::NAN)];
+    let vector = move || (number(), number(), number()).prop_map(DVec3::from);
+    let kind = || proptest::sample::select(&SolidKind::ALL[..]);
+    let index = || 0..4_usize;
+    let material = |specular| Material { specular, ..Material::default() };
+    prop_oneof![
+        4 => kind().prop_map(Action::Add),
+        2 => proptest::option::of(index()).prop_map(Action::Select),
+        2 => vector().prop_map(Action::MoveTo),
+        1 => vector().prop_map(Action::Rotate),
+        1 => number().prop_map(move |specular| Action::SetMaterial(material(specular))),
+        1 => kind().prop_map(|kind| Action::SetSolid(Solid::course_default(kind))),
+        1 => Just(Action::Rename("name".to_owned())),
+        2 => Just(Action::Duplicate),
+        2 => Just(Action::Delete),
+        1 => Just(Action::AddLight),
+        1 => (index(), vector()).prop_map(|(index, intensity)| {
+            Action::SetLight(index, Light { position: DVec3::ZERO, intensity })
+        }),
+        1 => index().prop_map(Action::DeleteLight),
+        1 => vector().prop_map(Action::SetBackground),
+        1 => (0..4_u32).prop_map(Action::SetMaxDepth),
+        1 => proptest::sample::select(&Projection::ALL[..]).prop_map(Action::SetProjection),
+        1 => number().prop_map(Action::SetVerticalFov),
+        1 => Just(Action::ResetCamera),
+        3 => Just(Action::Undo),
+        2 => Just(Action::Redo),
+    ]
+}
+
+proptest! {
+    #[test]
+    fn any_actions_leave_a_valid_scene_that_can_be_undone_to_the_start_and_redone(
+        actions in proptest::collection::vec(any_action(), 0..60),
+    ) {
+        let mut state = start();
+        for action in actions {
+            state.apply(action);
+            prop_assert!(state.document.scene().validate().is_ok());
+            let count = state.document.scene().primitives.len();
+            prop_assert!(state.document.selection().is_none_or(|index| index < count));
+            state.apply(Action::CloseDialog);
+        }
+        let end = (state.document.scene().clone(), state.document.can_redo());
+        while state.document.can_redo() {
+            state.apply(Action::Redo);
+        }
+        let furthest = state.document.scene().clone();
+        while state.document.can_undo() {
+            state.apply(Action::Undo);
+            prop_assert!(state.document.scene().validate().is_ok());
+        }
+        prop_assert_eq!(state.document.scene(), &Scene::default());
+        prop_assert!(!state.document.has_unsaved_changes());
+        while state.document.can_redo() {
+            state.apply(Action::Redo);
+        }
+        prop_assert_eq!(state.document.scene(), &furthest);
+        prop_assert!(end.1 || end.0 == furthest);
+        prop_assert_eq!(&state.document.scene().camera.position, &Camera::default().position);
+    }
+}
