@@ -16,8 +16,8 @@ const COUNT: usize = 64;
 
 /// `glsl/probe/sum.comp` with its buffer, which starts as row 0 of Pascal's triangle.
 struct Probe {
-    pipeline: ComputePipeline,
-    set: BindingSet,
+    pipeline: Arc<ComputePipeline>,
+    set: Arc<BindingSet>,
     numbers: Arc<Buffer>,
     resource: Resource,
     commands: Commands,

@@ -3,6 +3,7 @@
 
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use crate::whole_file;
 
@@ -11,6 +12,7 @@ pub const EXIT_CODE: u8 = 130;
 
 static LISTENED_TO: AtomicBool = AtomicBool::new(false);
 static REQUESTED: AtomicBool = AtomicBool::new(false);
+static WAKE: Mutex<Option<Box<dyn Fn() + Send>>> = Mutex::new(None);
 
 /// To be called once, at the start.
 pub fn handle() -> Result<(), ctrlc::Error> {
@@ -21,6 +23,9 @@ pub fn handle() -> Result<(), ctrlc::Error> {
             // The one line of every failed run; where it cannot be written, the exit code tells as much.
             let _ = writeln!(std::io::stderr(), "zerkalo: stopped");
             std::process::exit(EXIT_CODE.into());
+        }
+        if let Some(wake) = &*WAKE.lock().unwrap_or_else(PoisonError::into_inner) {
+            wake();
         }
     })
 }
@@ -34,6 +39,12 @@ impl Listener {
         Self(())
     }
 
+    /// For work that sleeps: Ctrl-C also calls `wake`, from another thread.
+    pub fn waking(wake: impl Fn() + Send + 'static) -> Self {
+        *WAKE.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(wake));
+        Self::start()
+    }
+
     pub fn stop_requested(&self) -> bool {
         REQUESTED.load(Ordering::Relaxed)
     }
@@ -42,5 +53,6 @@ impl Listener {
 impl Drop for Listener {
     fn drop(&mut self) {
         LISTENED_TO.store(false, Ordering::Relaxed);
+        *WAKE.lock().unwrap_or_else(PoisonError::into_inner) = None;
     }
 }

@@ -5,6 +5,7 @@ pub mod devices;
 pub mod gallery;
 pub mod interrupt;
 pub mod render;
+pub mod view;
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -14,12 +15,13 @@ use clap::{Args, Subcommand};
 use serde::Serialize;
 
 use crate::frame::FrameError;
-use crate::gpu::GpuError;
+use crate::gpu::{GpuError, Message};
 use crate::scene::{Scene, SceneError, gallery as ready};
 use crate::tracer::TracerError;
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    View(view::ViewArgs),
     Render(render::RenderArgs),
     Compare(compare::CompareArgs),
     Devices(devices::DevicesArgs),
@@ -29,6 +31,7 @@ pub enum Command {
 impl Command {
     pub fn run(&self) -> anyhow::Result<()> {
         match self {
+            Self::View(args) => view::run(args),
             Self::Render(args) => render::run(args),
             Self::Compare(args) => Ok(compare::run(args)?),
             Self::Devices(args) => devices::run(args),
@@ -63,6 +66,14 @@ fn scene_named(name: &str) -> Result<Scene, SceneError> {
             error
         }),
     }
+}
+
+/// Tells what validation had to say; a failure if it said anything.
+fn refuse_messages(messages: &[Message]) -> anyhow::Result<()> {
+    for message in messages {
+        eprintln!("{}: {}", message.id, message.text);
+    }
+    if messages.is_empty() { Ok(()) } else { Err(ValidationFailed { count: messages.len() }.into()) }
 }
 
 /// Printing that reports a closed pipe or a full disk instead of panicking.

@@ -9,7 +9,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::interrupt::Listener;
-use super::{DeviceArgs, print_json, scene_named};
+use super::{DeviceArgs, print_json, refuse_messages, scene_named};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Message, Validation};
 use crate::reference::{self, RenderError};
@@ -199,13 +199,6 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
     };
     let output = args.output.display().to_string();
     super::print_line(&format!("wrote {} ({width}x{height}, {device}, {time}{of})", output.escape_debug()))
-}
-
-fn refuse_messages(messages: &[Message]) -> Result<()> {
-    for message in messages {
-        eprintln!("{}: {}", message.id, message.text);
-    }
-    if messages.is_empty() { Ok(()) } else { Err(super::ValidationFailed { count: messages.len() }.into()) }
 }
 
 /// The middle of the sorted samples; of two middles, their mean.

@@ -1,7 +1,7 @@
 use std::ffi::CString;
 use std::sync::{Arc, Mutex};
 
-use ash::{ext, vk};
+use ash::{ext, khr, vk};
 use gpu_allocator::AllocationSizes;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
@@ -19,8 +19,8 @@ const MAX_MEMORY_BLOCK_BYTES: u64 = 64 << 20;
 ///
 /// Every object made from it holds it by `Arc`, so it is destroyed last.
 pub struct Device {
-    pub(super) raw: ash::Device,
-    pub(super) queue: vk::Queue,
+    pub(crate) raw: ash::Device,
+    pub(crate) queue: vk::Queue,
     pub(super) queue_family: u32,
     pub(super) timestamp_valid_bits: u32,
     pub(super) timestamp_period_ns: f32,
@@ -28,17 +28,24 @@ pub struct Device {
     pub(super) cache: PipelineCache,
     names: Option<ext::debug_utils::Device>,
     // Always there until `drop` takes it: it must go before the device itself.
-    allocator: Option<Mutex<Allocator>>,
-    pub(super) instance: Instance,
+    allocator: Option<Arc<Mutex<Allocator>>>,
+    pub(super) physical: vk::PhysicalDevice,
+    pub(super) instance: Arc<Instance>,
 }
 
 impl Device {
-    pub(super) fn new(instance: Instance, candidate: Candidate) -> Result<Arc<Self>, GpuError> {
+    /// `shows_pictures`: with what a swapchain needs.
+    pub(super) fn new(
+        instance: Arc<Instance>,
+        candidate: Candidate,
+        shows_pictures: bool,
+    ) -> Result<Arc<Self>, GpuError> {
         let name = candidate.description.name.clone();
         let queue_info =
             vk::DeviceQueueCreateInfo::default().queue_family_index(candidate.queue_family).queue_priorities(&[1.0]);
         let queue_infos = [queue_info];
-        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queue_infos);
+        let extensions = if shows_pictures { &[khr::swapchain::NAME.as_ptr()][..] } else { &[] };
+        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queue_infos).enabled_extension_names(extensions);
         // SAFETY: `candidate` was listed by this instance and has the queue family; `info` lives through the call.
         let raw = unsafe { instance.raw.create_device(candidate.raw, &info, None) }
             .map_err(GpuError::call(|| format!("open device '{name}'")))?;
@@ -57,6 +64,7 @@ impl Device {
             description: candidate.description,
             names,
             allocator: None,
+            physical: candidate.raw,
             instance,
         };
         let allocator = Allocator::new(&AllocatorCreateDesc {
@@ -70,13 +78,13 @@ impl Device {
                 .with_max_host_memblock_size(MAX_MEMORY_BLOCK_BYTES),
         })
         .map_err(|source| GpuError::Allocator { device: name, source })?;
-        device.allocator = Some(Mutex::new(allocator));
+        device.allocator = Some(Arc::new(Mutex::new(allocator)));
         device.set_name(queue, "queue");
         Ok(Arc::new(device))
     }
 
     /// The name that validation messages, RenderDoc and profilers show. A failure only costs the name.
-    pub(super) fn set_name<T: vk::Handle>(&self, object: T, name: &str) {
+    pub(crate) fn set_name<T: vk::Handle>(&self, object: T, name: &str) {
         let (Some(names), Ok(name)) = (&self.names, CString::new(name)) else { return };
         let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&name);
         // SAFETY: `object` is alive and was made from this device.
@@ -89,9 +97,13 @@ impl Device {
     }
 
     pub(super) fn with_allocator<R>(&self, work: impl FnOnce(&mut Allocator) -> R) -> R {
+        work(&mut self.allocator().lock().unwrap_or_else(std::sync::PoisonError::into_inner))
+    }
+
+    /// For a renderer that allocates for itself; it must not outlive the device.
+    pub(crate) fn allocator(&self) -> &Arc<Mutex<Allocator>> {
         // invariant: `new` sets it before the device is shared, and only `drop` takes it.
-        let allocator = self.allocator.as_ref().expect("the allocator lives as long as the device");
-        work(&mut allocator.lock().unwrap_or_else(std::sync::PoisonError::into_inner))
+        self.allocator.as_ref().expect("the allocator lives as long as the device")
     }
 }
 

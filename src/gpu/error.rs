@@ -24,6 +24,9 @@ pub enum GpuError {
     #[error("validation was asked for, but the Vulkan loader and its layer do not offer {0}")]
     NoValidationExtension(&'static str),
 
+    #[error("no picture can be shown in a window here: {0}")]
+    NoWindow(String),
+
     /// No device has all that is needed; each is listed with all that it lacks.
     #[error("no suitable Vulkan device: {0}")]
     NoSuitableDevice(String),
@@ -50,6 +53,11 @@ impl GpuError {
     /// For `map_err`: `.map_err(GpuError::call(|| format!("create buffer '{name}'")))`.
     pub fn call<S: Into<String>>(operation: impl FnOnce() -> S) -> impl FnOnce(vk::Result) -> GpuError {
         move |result| GpuError::Call { operation: operation().into(), result }
+    }
+
+    /// Whether the device is gone, which a new one may mend.
+    pub fn is_device_lost(&self) -> bool {
+        matches!(self, Self::Call { result: vk::Result::ERROR_DEVICE_LOST, .. })
     }
 
     /// Whether the user's choice is at fault rather than the machine.

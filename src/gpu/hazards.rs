@@ -35,7 +35,7 @@ impl Use {
     }
 }
 
-/// What has happened to one resource in the command buffer being recorded.
+/// What has happened to one resource in the commands recorded so far.
 #[derive(Debug, Default)]
 struct State {
     /// The commands that used it since the last barrier, with how.
@@ -46,7 +46,7 @@ struct State {
     is_written: bool,
 }
 
-/// The book of one command buffer. The host waits for each submission, so nothing is owed between two of them.
+/// The book of one command buffer, or of several that follow each other without the host's waiting in between.
 #[derive(Debug, Default)]
 pub struct Hazards {
     states: HashMap<ResourceId, State>,
@@ -74,7 +74,10 @@ impl Hazards {
         } else {
             None
         };
-        state.uses.push((command.to_owned(), as_));
+        // Once is enough: a resource that is only read needs no barrier in any number of submissions.
+        if !state.uses.iter().any(|(by, before)| by == command && *before == as_) {
+            state.uses.push((command.to_owned(), as_));
+        }
         state.is_written |= as_.writes();
         hazard
     }
@@ -94,6 +97,11 @@ impl Hazards {
     /// What the last barrier made the resource ready for.
     pub fn ready(&self, id: ResourceId) -> Option<Use> {
         self.states.get(&id).and_then(|state| state.ready)
+    }
+
+    /// Strikes out a resource that is used no more.
+    pub fn forget(&mut self, id: ResourceId) {
+        self.states.remove(&id);
     }
 
     /// Whether a command wrote the resource and no barrier has made that visible to the host.
@@ -176,6 +184,21 @@ mod tests {
         let id = ResourceId::fresh();
         hazards.note_barrier(id, Use::ShaderWrite);
         assert_eq!(hazards.note_use(id, "picture", "trace", Use::ShaderWrite, true), None);
+    }
+
+    #[test]
+    fn uses_repeated_without_a_barrier_do_not_pile_up() {
+        let mut book = Book::new();
+        (0..1000).for_each(|_| assert_eq!(book.uses("trace", Use::ShaderRead), None));
+        assert_eq!(book.barrier(Use::CopyTarget), [Use::ShaderRead]);
+    }
+
+    #[test]
+    fn a_forgotten_resource_starts_anew() {
+        let mut book = Book::new();
+        book.uses("trace", Use::ShaderWrite);
+        book.0.forget(book.1);
+        assert_eq!(book.uses("copy", Use::CopySource), None);
     }
 
     #[test]

@@ -1,9 +1,11 @@
-use std::ffi::CStr;
+use std::ffi::{CStr, c_char};
+use std::sync::Arc;
 
 use ash::{ext, vk};
 
 use super::error::GpuError;
 use super::messages::Messages;
+use super::surface::SurfaceTarget;
 
 /// How much the validation layer checks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -14,6 +16,8 @@ pub enum Validation {
     Core,
     /// Core, synchronization and GPU-assisted checks; the last find out-of-bounds accesses and cost much time.
     GpuAssisted,
+    /// Core, synchronization and best-practices checks.
+    BestPractices,
 }
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
@@ -34,7 +38,19 @@ pub struct Instance {
 impl Instance {
     /// # Errors
     /// No loader, no driver, a loader older than 1.2, or validation asked for without its layer.
-    pub fn new(validation: Validation) -> Result<Self, GpuError> {
+    pub fn new(validation: Validation) -> Result<Arc<Self>, GpuError> {
+        Self::with_extensions(validation, &[])
+    }
+
+    /// An instance that can show pictures in windows like `target`.
+    pub fn for_window(validation: Validation, target: &dyn SurfaceTarget) -> Result<Arc<Self>, GpuError> {
+        let display = target.display_handle().map_err(|error| GpuError::NoWindow(error.to_string()))?;
+        let extensions = ash_window::enumerate_required_extensions(display.as_raw())
+            .map_err(GpuError::call(|| "find out how this platform shows pictures in windows"))?;
+        Self::with_extensions(validation, extensions)
+    }
+
+    fn with_extensions(validation: Validation, extensions: &[*const c_char]) -> Result<Arc<Self>, GpuError> {
         // SAFETY: the loader library's initialisers are trusted like any system library's.
         let entry = unsafe { ash::Entry::load() }.map_err(GpuError::NoLoader)?;
         check_loader_version(&entry)?;
@@ -44,7 +60,7 @@ impl Instance {
         }
 
         let messages = Messages::default();
-        let raw = create(&entry, validation, has_debug_utils, &messages)?;
+        let raw = create(&entry, validation, has_debug_utils, extensions, &messages)?;
         let mut instance = Self { raw, messages, has_debug_utils, messenger: None, entry };
         if validation != Validation::Off {
             let debug_utils = ext::debug_utils::Instance::new(&instance.entry, &instance.raw);
@@ -54,7 +70,11 @@ impl Instance {
                     .map_err(GpuError::call(|| "create the debug messenger"))?;
             instance.messenger = Some((debug_utils, messenger));
         }
-        Ok(instance)
+        Ok(Arc::new(instance))
+    }
+
+    pub(super) fn entry(&self) -> &ash::Entry {
+        &self.entry
     }
 }
 
@@ -105,11 +125,12 @@ fn create(
     entry: &ash::Entry,
     validation: Validation,
     has_debug_utils: bool,
+    extensions: &[*const c_char],
     messages: &Messages,
 ) -> Result<ash::Instance, GpuError> {
     let application =
         vk::ApplicationInfo::default().application_name(c"zerkalo").engine_name(c"zerkalo").api_version(API_VERSION);
-    let mut extensions = Vec::new();
+    let mut extensions = extensions.to_vec();
     let mut layers = Vec::new();
     if has_debug_utils {
         extensions.push(ext::debug_utils::NAME.as_ptr());
@@ -120,9 +141,13 @@ fn create(
     }
 
     let mut checks = vec![vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
-    if validation == Validation::GpuAssisted {
-        checks.push(vk::ValidationFeatureEnableEXT::GPU_ASSISTED);
-        checks.push(vk::ValidationFeatureEnableEXT::GPU_ASSISTED_RESERVE_BINDING_SLOT);
+    match validation {
+        Validation::Off | Validation::Core => {}
+        Validation::GpuAssisted => {
+            checks.push(vk::ValidationFeatureEnableEXT::GPU_ASSISTED);
+            checks.push(vk::ValidationFeatureEnableEXT::GPU_ASSISTED_RESERVE_BINDING_SLOT);
+        }
+        Validation::BestPractices => checks.push(vk::ValidationFeatureEnableEXT::BEST_PRACTICES),
     }
     let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&checks);
     // Chained here as well, so that creating and destroying the instance are under validation too.
@@ -138,6 +163,9 @@ fn create(
     // SAFETY: all that `info` points to lives until the call returns.
     unsafe { entry.create_instance(&info, None) }.map_err(|result| match result {
         vk::Result::ERROR_INCOMPATIBLE_DRIVER => GpuError::NoDriver,
+        vk::Result::ERROR_EXTENSION_NOT_PRESENT => {
+            GpuError::NoWindow("the Vulkan loader and its drivers know no windows of this platform".to_owned())
+        }
         result => GpuError::Call { operation: "create the Vulkan instance".into(), result },
     })
 }

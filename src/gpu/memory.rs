@@ -13,26 +13,30 @@ use super::hazards::ResourceId;
 /// What a buffer is for; decides its usage flags and its memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BufferKind {
-    /// Written by the host, read by shaders as a uniform block.
+    /// Written by the host before the first use and by [`Recorder::update`](super::Recorder::update) after, read by
+    /// shaders as a uniform block.
     Uniform,
     /// Written by the host before, by shaders after; read back by the host.
     Storage,
     /// Written by copies, read by the host.
     Readback,
+    /// Written by the host, read by copies.
+    Upload,
 }
 
 impl BufferKind {
     fn usage(self) -> vk::BufferUsageFlags {
         match self {
-            Self::Uniform => vk::BufferUsageFlags::UNIFORM_BUFFER,
+            Self::Uniform => vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             Self::Storage => vk::BufferUsageFlags::STORAGE_BUFFER,
             Self::Readback => vk::BufferUsageFlags::TRANSFER_DST,
+            Self::Upload => vk::BufferUsageFlags::TRANSFER_SRC,
         }
     }
 
     fn location(self) -> MemoryLocation {
         match self {
-            Self::Uniform => MemoryLocation::CpuToGpu,
+            Self::Uniform | Self::Upload => MemoryLocation::CpuToGpu,
             Self::Storage | Self::Readback => MemoryLocation::GpuToCpu,
         }
     }
@@ -130,7 +134,7 @@ pub struct StorageImage {
 impl StorageImage {
     /// Bytes of one `rgba32f` pixel.
     pub const PIXEL_BYTES: u64 = 16;
-    /// Every Vulkan device must offer this format for storage images.
+    /// Every Vulkan device must offer this format for storage images and as the source of blits.
     const FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
     pub fn new(device: &Arc<Device>, name: &str, width: u32, height: u32) -> Result<Self, GpuError> {
@@ -142,7 +146,9 @@ impl StorageImage {
             .array_layers(1)
             .samples(vk::SampleCountFlags::TYPE_1)
             .tiling(vk::ImageTiling::OPTIMAL)
-            .usage(vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::TRANSFER_SRC);
+            .usage(
+                vk::ImageUsageFlags::STORAGE | vk::ImageUsageFlags::TRANSFER_SRC | vk::ImageUsageFlags::TRANSFER_DST,
+            );
         // SAFETY: the device is alive.
         let raw = unsafe { device.raw.create_image(&info, None) }
             .map_err(GpuError::call(|| format!("create image '{name}' ({width}x{height})")))?;
@@ -176,6 +182,14 @@ impl StorageImage {
             .map_err(GpuError::call(|| format!("create the view of image '{name}'")))?;
         device.set_name(image.view, name);
         Ok(image)
+    }
+
+    pub(crate) fn raw(&self) -> vk::Image {
+        self.raw
+    }
+
+    pub(crate) fn extent(&self) -> vk::Extent2D {
+        self.extent
     }
 
     pub fn width(&self) -> u32 {

@@ -47,6 +47,12 @@ impl Messages {
     }
 }
 
+/// Messages that are no fault, each by a part of its id, and why.
+const NO_FAULT: [&str; 1] = [
+    // Debug names and the layer's own settings are for debugging, as it says; they are on for that.
+    "specialuse-extension-debugging",
+];
+
 /// # Safety
 /// Vulkan calls it with a valid `data`, and `user_data` is the list given in [`Messages::messenger_info`].
 unsafe extern "system" fn on_message(
@@ -63,6 +69,9 @@ unsafe extern "system" fn on_message(
         };
         (&*user_data.cast::<Mutex<Vec<Message>>>(), string(data.p_message_id_name), string(data.p_message))
     };
-    list.lock().unwrap_or_else(PoisonError::into_inner).push(Message { id: id.into_owned(), text: text.into_owned() });
+    if !NO_FAULT.iter().any(|part| id.contains(part)) {
+        let message = Message { id: id.into_owned(), text: text.into_owned() };
+        list.lock().unwrap_or_else(PoisonError::into_inner).push(message);
+    }
     vk::FALSE
 }

@@ -6,32 +6,40 @@ mod commands;
 mod device;
 mod error;
 mod hazards;
+mod in_flight;
 mod instance;
 mod memory;
 mod messages;
 mod physical;
 mod pipeline;
 mod pipeline_cache;
+mod recorder;
 pub mod shaders;
+mod surface;
 mod timer;
 
 use std::sync::Arc;
 
-pub use commands::{Commands, Recorder};
+pub use commands::Commands;
+pub(crate) use commands::Semaphores;
 pub use device::Device;
 pub use error::GpuError;
 pub use hazards::Use;
+pub use in_flight::InFlight;
 pub use instance::{Instance, Validation};
 pub use memory::{Buffer, BufferKind, StorageImage};
 pub use messages::{Message, Messages};
 pub use physical::{DeviceDescription, DeviceKind, choose};
 pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
+pub use recorder::Recorder;
+pub use shaders::Shader;
+pub use surface::{Surface, SurfaceTarget};
 pub use timer::Timer;
 
 /// Every device of the machine, usable or not, in the loader's order.
 pub fn devices() -> Result<Vec<DeviceDescription>, GpuError> {
     let instance = Instance::new(Validation::Off)?;
-    Ok(physical::list(&instance)?.into_iter().map(|candidate| candidate.description).collect())
+    Ok(physical::list(&instance, None)?.into_iter().map(|candidate| candidate.description).collect())
 }
 
 impl Device {
@@ -40,11 +48,27 @@ impl Device {
     /// # Errors
     /// No loader, driver, layer or suitable device; see [`choose`].
     pub fn open(wanted: Option<&str>, validation: Validation) -> Result<Arc<Self>, GpuError> {
-        let instance = Instance::new(validation)?;
-        let mut candidates = physical::list(&instance)?;
+        Self::open_on(&Instance::new(validation)?, wanted, None)
+    }
+
+    /// As [`Device::open`], a device that can show pictures on the surface.
+    pub fn open_for(surface: &Surface, wanted: Option<&str>) -> Result<Arc<Self>, GpuError> {
+        Self::open_on(surface.instance(), wanted, Some(surface))
+    }
+
+    fn open_on(
+        instance: &Arc<Instance>,
+        wanted: Option<&str>,
+        surface: Option<&Surface>,
+    ) -> Result<Arc<Self>, GpuError> {
+        let mut candidates = physical::list(instance, surface)?;
         let descriptions: Vec<_> = candidates.iter().map(|candidate| candidate.description.clone()).collect();
         let index = choose(&descriptions, wanted)?;
-        Device::new(instance, candidates.swap_remove(index))
+        Device::new(instance.clone(), candidates.swap_remove(index), surface.is_some())
+    }
+
+    pub(crate) fn instance(&self) -> &Arc<Instance> {
+        &self.instance
     }
 
     pub fn description(&self) -> &DeviceDescription {

@@ -2,11 +2,12 @@
 
 use std::ffi::CStr;
 
-use ash::vk;
+use ash::{khr, vk};
 use serde::Serialize;
 
 use super::error::GpuError;
 use super::instance::{API_VERSION, Instance, version_text};
+use super::surface::Surface;
 
 /// Kind of device, best first: the order in which one is chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
@@ -71,17 +72,18 @@ pub(super) struct Candidate {
     pub cache_identity: ([u32; 2], [u8; vk::UUID_SIZE]),
 }
 
-pub(super) fn list(instance: &Instance) -> Result<Vec<Candidate>, GpuError> {
+/// With a surface, what a device lacks for showing pictures in that window counts too.
+pub(super) fn list(instance: &Instance, surface: Option<&Surface>) -> Result<Vec<Candidate>, GpuError> {
     // SAFETY: the instance is alive.
     let devices = unsafe { instance.raw.enumerate_physical_devices() }.map_err(|result| match result {
         // What a driver without its hardware answers.
         vk::Result::ERROR_INITIALIZATION_FAILED => GpuError::NoDriver,
         result => GpuError::Call { operation: "list the Vulkan devices".into(), result },
     })?;
-    Ok(devices.into_iter().enumerate().map(|(index, raw)| inspect(instance, index, raw)).collect())
+    Ok(devices.into_iter().enumerate().map(|(index, raw)| inspect(instance, surface, index, raw)).collect())
 }
 
-fn inspect(instance: &Instance, index: usize, raw: vk::PhysicalDevice) -> Candidate {
+fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk::PhysicalDevice) -> Candidate {
     // SAFETY: `raw` comes from this instance. The 1.2 structure is only chained where the device knows it.
     let (properties, families, driver) = unsafe {
         let properties = instance.raw.get_physical_device_properties(raw);
@@ -99,13 +101,23 @@ fn inspect(instance: &Instance, index: usize, raw: vk::PhysicalDevice) -> Candid
     if properties.api_version < API_VERSION {
         lacks.push(format!("Vulkan 1.2 (it offers {})", version_text(properties.api_version)));
     }
-    let can_compute = |&family: &usize| families[family].queue_flags.contains(vk::QueueFlags::COMPUTE);
+    let can = |&family: &usize, what| families[family].queue_flags.contains(what);
     let has_timestamps = |&family: &usize| families[family].timestamp_valid_bits > 0;
-    let computing: Vec<usize> = (0..families.len()).filter(can_compute).collect();
-    let queue_family = computing.iter().copied().find(has_timestamps).or(computing.first().copied());
-    if queue_family.is_none() {
+    let mut able: Vec<usize> = (0..families.len()).filter(|family| can(family, vk::QueueFlags::COMPUTE)).collect();
+    if able.is_empty() {
         lacks.push("a queue that can compute".to_owned());
     }
+    if let Some(surface) = surface {
+        if !offers_swapchain(instance, raw) {
+            lacks.push("VK_KHR_swapchain".to_owned());
+        }
+        // The widgets are drawn by the graphics pipeline, in the queue that traces: one for all needs no hand-over.
+        able.retain(|family| can(family, vk::QueueFlags::GRAPHICS) && surface.is_served_by(raw, *family));
+        if able.is_empty() {
+            lacks.push("a queue that can compute, draw and show pictures in this window".to_owned());
+        }
+    }
+    let queue_family = able.iter().copied().find(has_timestamps).or(able.first().copied());
 
     let timestamp_valid_bits = queue_family.map_or(0, |family| families[family].timestamp_valid_bits);
     Candidate {
@@ -125,6 +137,12 @@ fn inspect(instance: &Instance, index: usize, raw: vk::PhysicalDevice) -> Candid
         timestamp_period_ns: properties.limits.timestamp_period,
         cache_identity: ([properties.vendor_id, properties.device_id], properties.pipeline_cache_uuid),
     }
+}
+
+fn offers_swapchain(instance: &Instance, raw: vk::PhysicalDevice) -> bool {
+    // SAFETY: `raw` comes from this instance.
+    let extensions = unsafe { instance.raw.enumerate_device_extension_properties(raw) }.unwrap_or_default();
+    extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(khr::swapchain::NAME))
 }
 
 fn text<E>(name: Result<&CStr, E>) -> String {

@@ -1,5 +1,6 @@
 //! Compute pipelines and what is bound to them.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use ash::vk;
@@ -59,7 +60,7 @@ pub struct ComputePipeline {
 }
 
 impl ComputePipeline {
-    pub fn new(device: &Arc<Device>, description: &PipelineDescription) -> Result<Self, GpuError> {
+    pub fn new(device: &Arc<Device>, description: &PipelineDescription) -> Result<Arc<Self>, GpuError> {
         let name = description.shader.name;
         // Null handles until made; `Drop` ignores them, so a failure on the way leaks nothing.
         let mut pipeline = Self {
@@ -104,7 +105,7 @@ impl ComputePipeline {
         pipeline.raw = compile(device, description, pipeline.layout)?;
         device.set_name(pipeline.raw, name);
         device.cache.save(&device.raw);
-        Ok(pipeline)
+        Ok(Arc::new(pipeline))
     }
 }
 
@@ -143,7 +144,11 @@ fn compile(
         .module(module)
         .name(c"main")
         .specialization_info(&specialization);
-    let info = vk::ComputePipelineCreateInfo::default().stage(stage).layout(layout);
+    let info = vk::ComputePipelineCreateInfo::default()
+        // For `Recorder::dispatch_part`.
+        .flags(vk::PipelineCreateFlags::DISPATCH_BASE)
+        .stage(stage)
+        .layout(layout);
     // SAFETY: module and layout are alive; the module may go once the pipeline stands.
     let made = unsafe {
         let made = device.raw.create_compute_pipelines(device.cache.raw, &[info], None);
@@ -164,6 +169,21 @@ pub enum Resource {
 }
 
 impl Resource {
+    pub(crate) fn image(&self) -> Option<&StorageImage> {
+        match self {
+            Self::Buffer(_) => None,
+            Self::Image(image) => Some(image),
+        }
+    }
+
+    /// What keeps it alive.
+    pub(super) fn kept(&self) -> Arc<dyn Any> {
+        match self {
+            Self::Buffer(buffer) => buffer.clone(),
+            Self::Image(image) => image.clone(),
+        }
+    }
+
     pub(super) fn id(&self) -> ResourceId {
         match self {
             Self::Buffer(buffer) => buffer.id,
@@ -224,7 +244,7 @@ impl BindingSet {
     ///
     /// # Panics
     /// The resources are not those that the pipeline binds, in number, kind or device.
-    pub fn new(pipeline: &ComputePipeline, resources: &[Resource]) -> Result<Self, GpuError> {
+    pub fn new(pipeline: &ComputePipeline, resources: &[Resource]) -> Result<Arc<Self>, GpuError> {
         assert_eq!(resources.len(), pipeline.bindings.len(), "kernel '{}' binds other resources", pipeline.name);
         let device = &pipeline.device;
         let sizes: Vec<_> = pipeline
@@ -279,7 +299,7 @@ impl BindingSet {
             unsafe { device.raw.update_descriptor_sets(&[write], &[]) };
             binding_set.uses.push((resource.clone(), kind.use_()));
         }
-        Ok(binding_set)
+        Ok(Arc::new(binding_set))
     }
 }
 

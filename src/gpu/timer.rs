@@ -13,7 +13,7 @@ pub struct Timer {
 
 impl Timer {
     /// `None` where the device's queue has no timestamps.
-    pub fn new(device: &Arc<Device>, name: &str) -> Result<Option<Self>, GpuError> {
+    pub fn new(device: &Arc<Device>, name: &str) -> Result<Option<Arc<Self>>, GpuError> {
         if device.timestamp_valid_bits == 0 {
             return Ok(None);
         }
@@ -22,7 +22,7 @@ impl Timer {
         let pool = unsafe { device.raw.create_query_pool(&info, None) }
             .map_err(GpuError::call(|| format!("create timer '{name}'")))?;
         device.set_name(pool, name);
-        Ok(Some(Self { pool, device: device.clone() }))
+        Ok(Some(Arc::new(Self { pool, device: device.clone() })))
     }
 
     /// GPU time between start and stop of the last submission that used the timer, which must have been waited for.

@@ -5,10 +5,11 @@ use std::sync::Arc;
 use bytemuck::NoUninit;
 
 use super::TracerError;
+use super::chunks::Part;
 use super::records::{FrameRecord, PrimitiveRecords};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, GpuError, PipelineDescription, Recorder,
-    Resource, shaders,
+    Resource, Shader, Use,
 };
 use crate::scene::{COURSE_PRIMITIVE_LIMIT, Scene};
 
@@ -23,24 +24,19 @@ pub const BINDINGS: [BindingKind; 5] =
 /// invocations at a time, which lie nearest to each other in a square.
 pub const WORKGROUP: [u32; 2] = [8, 8];
 
-/// The pipeline with one scene bound to it.
-pub(super) struct CourseKernel {
-    pipeline: ComputePipeline,
-    set: BindingSet,
-    frame: FrameRecord,
-    workgroup: [u32; 2],
+/// A scene as the kernel takes it.
+#[derive(Debug, PartialEq)]
+pub(super) struct CourseScene {
+    pub frame: FrameRecord,
+    pub primitives: PrimitiveRecords,
 }
 
-impl CourseKernel {
-    /// `max_depth` generations at most.
-    pub fn new(
-        device: &Arc<Device>,
-        scene: &Scene,
-        max_depth: u32,
-        [width, height]: [u32; 2],
-        workgroup: [u32; 2],
-        picture: &Resource,
-    ) -> Result<Self, TracerError> {
+impl CourseScene {
+    /// For a picture of `width`×`height` pixels and `max_depth` generations at most.
+    ///
+    /// # Errors
+    /// The kernel cannot take the scene.
+    pub fn new(scene: &Scene, max_depth: u32, [width, height]: [u32; 2]) -> Result<Self, TracerError> {
         let [light] = &scene.lights[..] else {
             return Err(TracerError::Refused(format!(
                 "the course kernel needs exactly one light, and the scene has {}",
@@ -53,28 +49,80 @@ impl CourseKernel {
                 scene.primitives.len()
             )));
         }
+        let primitives = PrimitiveRecords::of(scene);
+        Ok(Self { frame: FrameRecord::new(scene, light, primitives.counts(), max_depth, width, height), primitives })
+    }
+}
 
-        let pipeline = ComputePipeline::new(
-            device,
-            &PipelineDescription {
-                shader: &shaders::COURSE,
-                bindings: &BINDINGS,
-                push_constant_bytes: size_of::<FrameRecord>() as u32,
-                constants: &[max_depth, workgroup[0], workgroup[1]],
-            },
-        )?;
-        let records = PrimitiveRecords::of(scene);
-        let resources = [picture.clone()].into_iter().chain(upload(device, &records)?).collect::<Vec<_>>();
-        let set = BindingSet::new(&pipeline, &resources)?;
-        let frame = FrameRecord::new(scene, light, records.counts(), max_depth, width, height);
-        Ok(Self { pipeline, set, frame, workgroup })
+/// The pipeline with a scene's primitives on the device.
+pub(super) struct CourseKernel {
+    pipeline: Arc<ComputePipeline>,
+    arrays: [Resource; 4],
+    /// What the arrays hold.
+    primitives: PrimitiveRecords,
+    workgroup: [u32; 2],
+}
+
+impl CourseKernel {
+    /// `max_depth`: the most generations that any frame will ask for.
+    pub fn new(
+        device: &Arc<Device>,
+        shader: &Shader,
+        primitives: PrimitiveRecords,
+        max_depth: u32,
+        workgroup: [u32; 2],
+    ) -> Result<Self, GpuError> {
+        let description = PipelineDescription {
+            shader,
+            bindings: &BINDINGS,
+            push_constant_bytes: size_of::<FrameRecord>() as u32,
+            constants: &[max_depth, workgroup[0], workgroup[1]],
+        };
+        let pipeline = ComputePipeline::new(device, &description)?;
+        Ok(Self { pipeline, arrays: upload(device, &primitives)?, primitives, workgroup })
     }
 
-    /// Traces the tile at `x`, `y` of the picture into the bound image.
-    pub fn record<'a>(&'a self, recorder: &mut Recorder<'a>, [x, y]: [u32; 2], [width, height]: [u32; 2]) {
-        let groups = [width.div_ceil(self.workgroup[0]), height.div_ceil(self.workgroup[1]), 1];
-        recorder.dispatch(&self.pipeline, &self.set, bytemuck::bytes_of(&self.frame.at_tile(x, y)), groups);
+    /// The kernel writing into `picture`.
+    pub fn bind(&self, picture: &Resource) -> Result<Arc<BindingSet>, GpuError> {
+        let resources = [picture.clone()].into_iter().chain(self.arrays.clone()).collect::<Vec<_>>();
+        BindingSet::new(&self.pipeline, &resources)
     }
+
+    /// Puts other primitives in the arrays' place, record by record where they differ; returns the bytes written.
+    pub fn update(&mut self, recorder: &mut Recorder, primitives: &PrimitiveRecords) -> u64 {
+        let (old, new) = (self.primitives.arrays(), primitives.arrays());
+        let mut written = 0;
+        for ((array, old), (new, record_bytes)) in self.arrays.iter().zip(old.map(|(old, _)| old)).zip(new) {
+            let differing: Vec<_> = differing_records(old, new, record_bytes).collect();
+            if differing.is_empty() {
+                continue;
+            }
+            written += (differing.len() * record_bytes) as u64;
+            recorder.make_ready(array, Use::CopyTarget);
+            recorder.update(array, differing);
+            recorder.make_ready(array, Use::ShaderRead);
+        }
+        self.primitives = primitives.clone();
+        written
+    }
+
+    /// Traces these parts of the picture.
+    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, frame: &FrameRecord, parts: &[Part]) {
+        let parts = parts.iter().map(|part| ([part.first[0], part.first[1], 0], [part.groups[0], part.groups[1], 1]));
+        recorder.dispatch_parts(&self.pipeline, set, bytemuck::bytes_of(frame), parts);
+    }
+
+    /// The workgroups that cover so many pixels.
+    pub fn groups(&self, [width, height]: [u32; 2]) -> [u32; 2] {
+        [width.div_ceil(self.workgroup[0]), height.div_ceil(self.workgroup[1])]
+    }
+}
+
+/// The records of `new` that are not in their places in `old`, with their offsets in bytes.
+fn differing_records<'a>(old: &'a [u8], new: &'a [u8], record_bytes: usize) -> impl Iterator<Item = (u64, &'a [u8])> {
+    let records = new.chunks_exact(record_bytes).enumerate().map(move |(index, record)| (index * record_bytes, record));
+    let differing = records.filter(move |&(offset, record)| old.get(offset..offset + record_bytes) != Some(record));
+    differing.map(|(offset, record)| (offset as u64, record))
 }
 
 /// The four uniform buffers, in the order of their bindings.
@@ -92,4 +140,20 @@ fn uniform_array<T: NoUninit>(device: &Arc<Device>, name: &str, records: &[T]) -
     let mut buffer = Buffer::new(device, name, BufferKind::Uniform, (MAX_PRIMITIVES * size_of::<T>()) as u64)?;
     buffer.write(bytemuck::cast_slice(records))?;
     Ok(Resource::from(&Arc::new(buffer)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::differing_records;
+
+    #[test]
+    fn only_records_that_differ_are_written() {
+        let at = |old: &[u8], new: &[u8]| {
+            differing_records(old, new, 2).map(|(offset, record)| (offset, record.to_vec())).collect::<Vec<_>>()
+        };
+        assert_eq!(at(&[1, 2, 3, 4], &[1, 2, 3, 4]), []);
+        assert_eq!(at(&[1, 2, 3, 4], &[1, 2, 3, 5]), [(2, vec![3, 5])]);
+        assert_eq!(at(&[1, 2], &[1, 2, 3, 4]), [(2, vec![3, 4])], "a new one");
+        assert_eq!(at(&[1, 2, 3, 4], &[3, 4]), [(0, vec![3, 4])], "one less: the count leaves out the last");
+    }
 }

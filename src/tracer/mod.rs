@@ -1,5 +1,7 @@
 //! From a scene to a frame on a device.
 
+mod canvas;
+mod chunks;
 mod course;
 mod records;
 mod tiles;
@@ -7,15 +9,19 @@ mod tiles;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+pub use canvas::Canvas;
 pub use course::{BINDINGS, MAX_PRIMITIVES, WORKGROUP, upload};
 pub use records::{
     BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MaterialRecord, PrimitiveRecords, SphereRecord,
 };
 
 use crate::frame::{Frame, FrameError};
-use crate::gpu::{Buffer, BufferKind, Commands, Device, GpuError, Resource, StorageImage, Timer, Use};
+use crate::gpu::{
+    BindingSet, Buffer, BufferKind, Commands, Device, GpuError, Resource, StorageImage, Timer, Use, shaders,
+};
 use crate::scene::Scene;
-use course::CourseKernel;
+use chunks::Part;
+use course::{CourseKernel, CourseScene};
 use tiles::{Tile, tiles};
 
 /// Why there is no frame. Each is one line.
@@ -67,13 +73,15 @@ impl Settings {
 /// A scene on a device, ready to be drawn again and again.
 pub struct Tracer {
     kernel: CourseKernel,
+    set: Arc<BindingSet>,
+    frame: FrameRecord,
     tiles: Vec<Tile>,
     width: u32,
     height: u32,
     picture: Resource,
     pixels: Arc<Buffer>,
     read_back: Resource,
-    timer: Option<Timer>,
+    timer: Option<Arc<Timer>>,
     commands: Commands,
 }
 
@@ -84,6 +92,7 @@ impl Tracer {
         let &Settings { width, height, max_depth, max_tile_side, workgroup } = settings;
         Frame::check_size(width, height)?;
         let max_depth = max_depth.unwrap_or(scene.max_depth);
+        let scene_records = CourseScene::new(scene, max_depth, [width, height])?;
         let max_tile_side = max_tile_side.clamp(1, device.description().max_image_side);
         let tile_side = tile_side(max_tile_side, scene.primitives.len(), max_depth);
         let (tile_width, tile_height) = (width.min(tile_side), height.min(tile_side));
@@ -92,8 +101,12 @@ impl Tracer {
         let tile_bytes = u64::from(tile_width) * u64::from(tile_height) * StorageImage::PIXEL_BYTES;
         let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, tile_bytes)?);
         let picture = Resource::from(&picture);
+        let CourseScene { frame, primitives } = scene_records;
+        let kernel = CourseKernel::new(device, &shaders::COURSE, primitives, max_depth, workgroup)?;
         Ok(Self {
-            kernel: CourseKernel::new(device, scene, max_depth, [width, height], workgroup, &picture)?,
+            set: kernel.bind(&picture)?,
+            kernel,
+            frame,
             tiles: tiles(width, height, tile_side),
             width,
             height,
@@ -122,15 +135,9 @@ impl Tracer {
         assert_eq!((frame.width(), frame.height()), (self.width, self.height), "the frame is of another size");
         let mut gpu_time_ns = self.timer.as_ref().map(|_| 0);
         let mut pixels_done = 0;
-        for tile in &self.tiles {
-            let tile_time_ns = trace_tile(
-                &mut self.commands,
-                &self.kernel,
-                &self.picture,
-                &self.read_back,
-                self.timer.as_ref(),
-                tile,
-            )?;
+        for index in 0..self.tiles.len() {
+            let tile = self.tiles[index];
+            let tile_time_ns = self.trace(tile)?;
             gpu_time_ns = gpu_time_ns.zip(tile_time_ns).map(|(sum, time)| sum + time);
             tile.copy_pixels(bytemuck::cast_slice(self.pixels.bytes()?), frame);
             pixels_done += u64::from(tile.width) * u64::from(tile.height);
@@ -139,6 +146,30 @@ impl Tracer {
             }
         }
         Ok(gpu_time_ns)
+    }
+
+    /// Traces one tile and copies it to where the host reads it; returns the GPU time of the tracing.
+    fn trace(&mut self, tile: Tile) -> Result<Option<u64>, GpuError> {
+        let Self { kernel, set, frame, picture, read_back, timer, commands, .. } = self;
+        let frame = frame.at_tile(tile.x, tile.y);
+        let whole_tile = Part { first: [0, 0], groups: kernel.groups([tile.width, tile.height]) };
+        commands.run(|recorder| {
+            recorder.labelled("trace", |recorder| {
+                recorder.make_ready(picture, Use::ShaderWrite);
+                timer.iter().for_each(|timer| recorder.start(timer));
+                kernel.record(recorder, set, &frame, &[whole_tile]);
+                timer.iter().for_each(|timer| recorder.stop(timer));
+                Ok(())
+            })?;
+            recorder.labelled("read back", |recorder| {
+                recorder.make_ready(picture, Use::CopySource);
+                recorder.make_ready(read_back, Use::CopyTarget);
+                recorder.copy_to_buffer(picture, read_back, tile.width, tile.height);
+                recorder.make_ready(read_back, Use::HostRead);
+                Ok(())
+            })
+        })?;
+        timer.as_deref().map(Timer::elapsed_ns).transpose()
     }
 }
 
@@ -152,33 +183,6 @@ fn tile_side(max: u32, primitives: usize, max_depth: u32) -> u32 {
     let side = (TESTS / tests_per_pixel).isqrt() as u32;
     // A multiple of the workgroup's side leaves no invocations idle at the tile's edge.
     max.min((side / 8 * 8).max(64))
-}
-
-fn trace_tile(
-    commands: &mut Commands,
-    kernel: &CourseKernel,
-    picture: &Resource,
-    read_back: &Resource,
-    timer: Option<&Timer>,
-    tile: &Tile,
-) -> Result<Option<u64>, GpuError> {
-    commands.run(|recorder| {
-        recorder.labelled("trace", |recorder| {
-            recorder.make_ready(picture, Use::ShaderWrite);
-            timer.into_iter().for_each(|timer| recorder.start(timer));
-            kernel.record(recorder, [tile.x, tile.y], [tile.width, tile.height]);
-            timer.into_iter().for_each(|timer| recorder.stop(timer));
-            Ok(())
-        })?;
-        recorder.labelled("read back", |recorder| {
-            recorder.make_ready(picture, Use::CopySource);
-            recorder.make_ready(read_back, Use::CopyTarget);
-            recorder.copy_to_buffer(picture, read_back, tile.width, tile.height);
-            recorder.make_ready(read_back, Use::HostRead);
-            Ok(())
-        })
-    })?;
-    timer.map(Timer::elapsed_ns).transpose()
 }
 
 #[cfg(test)]

@@ -101,7 +101,7 @@ const _: () = {
 };
 
 /// The records of all primitives, by kind, each kind in file order.
-#[derive(Debug, Default, PartialEq)]
+#[derive(Debug, Clone, Default, PartialEq)]
 pub struct PrimitiveRecords {
     pub spheres: Vec<SphereRecord>,
     pub boxes: Vec<BoxRecord>,
@@ -143,6 +143,16 @@ impl PrimitiveRecords {
             }
         }
         records
+    }
+
+    /// The bytes of each kind's array, with the bytes of one record.
+    pub(super) fn arrays(&self) -> [(&[u8], usize); 4] {
+        [
+            (bytemuck::cast_slice(&self.spheres), size_of::<SphereRecord>()),
+            (bytemuck::cast_slice(&self.boxes), size_of::<BoxRecord>()),
+            (bytemuck::cast_slice(&self.cylinders), size_of::<CylinderRecord>()),
+            (bytemuck::cast_slice(&self.cones), size_of::<ConeRecord>()),
+        ]
     }
 
     /// Spheres, boxes, cylinders, cones.

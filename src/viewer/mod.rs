@@ -5,19 +5,31 @@
 //! and the swapchain is plain data and pure functions, tested without either.
 
 pub mod action;
+mod app;
 mod camera_frame;
 pub mod camera_motion;
 pub mod document;
 mod edits;
 pub mod frame_times;
+mod highlight;
 mod history;
+mod observer;
 pub mod outline;
 pub mod panel;
 pub mod pick;
+mod picture_input;
 pub mod preferences;
+mod recovery;
 pub mod recovery_file;
+mod reference_worker;
+mod screen;
+mod session;
 pub mod state;
+mod swapchain;
+mod swapchain_choices;
 pub mod text;
 
+pub use app::{Options, Stopper, ViewerError, run};
 pub use document::Document;
 pub use preferences::config_folder;
+pub use screen::ScreenError;

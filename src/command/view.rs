@@ -1,0 +1,54 @@
+//! `zerkalo view [SCENE]`: the window.
+
+use anyhow::Result;
+use clap::Args;
+
+use super::interrupt::Listener;
+use super::{DeviceArgs, refuse_messages, scene_named};
+use crate::gpu::Validation;
+use crate::scene::gallery;
+use crate::tracer::TracerError;
+use crate::viewer::{self, Document, Options};
+
+/// Open the window on a scene
+#[derive(Debug, Clone, Args)]
+pub struct ViewArgs {
+    /// A scene file (.toml, .json) or a name of `zerkalo gallery`, such as `start`
+    #[arg(default_value = "showcase")]
+    pub scene: String,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    /// Run under core, synchronization and best-practices validation; any message is a failure
+    #[arg(long)]
+    pub validate: bool,
+    /// Print one JSON object for every frame that differs from the last, for scripts that drive the window: what is
+    /// shown, and where the widgets are
+    #[arg(long)]
+    pub observe: bool,
+    /// Act as if the device was lost after so many frames
+    #[arg(long, value_name = "FRAMES", hide = true)]
+    pub lose_device_after: Option<u64>,
+}
+
+/// Returns when the window is closed. Fails then when validation had anything to say.
+pub fn run(args: &ViewArgs) -> Result<()> {
+    let scene = scene_named(&args.scene)?;
+    let is_file = gallery::scene(&args.scene).is_none();
+    let document = Document::new(scene, is_file.then(|| args.scene.clone().into()));
+    let options = Options {
+        device: args.device.device.clone(),
+        validation: if args.validate { Validation::BestPractices } else { Validation::Off },
+        is_observed: args.observe,
+        lose_device_after: args.lose_device_after,
+        config_folder: viewer::config_folder(),
+    };
+    let mut listener = None;
+    let messages = viewer::run(document, options, |stopper| {
+        listener = Some(Listener::waking(move || stopper.stop()));
+    })?;
+    refuse_messages(&messages.to_vec())?;
+    match listener {
+        Some(listener) if listener.stop_requested() => Err(TracerError::Stopped.into()),
+        _ => Ok(()),
+    }
+}

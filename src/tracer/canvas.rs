@@ -1,0 +1,318 @@
+//! A picture that is traced while others look at it: a chunk with each submission, anew when its scene changes.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::TracerError;
+use super::chunks::{Pace, Sweep};
+use super::course::{CourseKernel, CourseScene, WORKGROUP};
+use super::records::PrimitiveRecords;
+use crate::frame::Frame;
+use crate::gpu::{
+    BindingSet, Buffer, BufferKind, Device, GpuError, InFlight, Recorder, Resource, Shader, StorageImage, Timer, Use,
+};
+use crate::scene::{DEPTH_LIMIT, Scene};
+
+/// Pictures that take longer are seen while they come into being.
+const LONG_NS: f64 = 250e6;
+
+/// The course kernel's picture of a changing scene, on submissions of an [`InFlight`].
+///
+/// A picture is of one state of the scene: what changes meanwhile is for the next. Two images take turns, one shown
+/// and one traced; only where a picture takes longer than a quarter of a second is the shown one traced in place, and
+/// taken up anew at every change.
+pub struct Canvas {
+    kernel: CourseKernel,
+    images: [Image; 2],
+    shown: usize,
+    size: [u32; 2],
+    /// What the picture being traced, or else the last one, is of.
+    current: Option<CourseScene>,
+    /// What the next is of.
+    next: Option<CourseScene>,
+    sweep: Sweep,
+    is_in_place: bool,
+    pace: Pace,
+    /// What each place of the ring has in flight, if anything.
+    places: [Place; InFlight::COUNT],
+    /// Pictures begun so far.
+    begun: u64,
+    /// GPU time that the picture being traced has taken; `None` where the device has no timestamps.
+    picture_ns: Option<u64>,
+    finished_ns: Vec<u64>,
+    uploaded_bytes: u64,
+    device: Arc<Device>,
+}
+
+struct Image {
+    resource: Resource,
+    set: Arc<BindingSet>,
+    is_cleared: bool,
+}
+
+#[derive(Default)]
+struct Place {
+    timer: Option<Arc<Timer>>,
+    chunk: Option<Chunk>,
+}
+
+/// A part of a picture that was submitted.
+struct Chunk {
+    /// Of which picture, by [`Canvas::begun`].
+    picture: u64,
+    groups: u64,
+    is_last: bool,
+    submitted: Instant,
+}
+
+impl Canvas {
+    /// `shader`: a build of `glsl/course.comp`.
+    pub fn new(device: &Arc<Device>, shader: &Shader, size: [u32; 2]) -> Result<Self, TracerError> {
+        let kernel = CourseKernel::new(device, shader, PrimitiveRecords::default(), DEPTH_LIMIT, WORKGROUP)?;
+        let timer = || Ok::<_, GpuError>(Place { timer: Timer::new(device, "trace")?, chunk: None });
+        Ok(Self {
+            images: images(device, &kernel, size)?,
+            sweep: Sweep::new(kernel.groups(size)),
+            kernel,
+            shown: 0,
+            size,
+            current: None,
+            next: None,
+            is_in_place: true,
+            pace: Pace::new(),
+            places: [timer()?, timer()?],
+            begun: 0,
+            picture_ns: Some(0),
+            finished_ns: Vec::new(),
+            uploaded_bytes: 0,
+            device: device.clone(),
+        })
+    }
+
+    /// Pixels.
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// The picture to look at.
+    pub fn picture(&self) -> &Resource {
+        &self.images[self.shown].resource
+    }
+
+    /// Another kernel from the next chunk on; the picture is to be [asked for](Canvas::show) again.
+    pub fn replace_shader(&mut self, shader: &Shader) -> Result<(), TracerError> {
+        let kernel = CourseKernel::new(&self.device, shader, PrimitiveRecords::default(), DEPTH_LIMIT, WORKGROUP)?;
+        for image in &mut self.images {
+            image.set = kernel.bind(&image.resource)?;
+        }
+        self.kernel = kernel;
+        self.forget_scene();
+        Ok(())
+    }
+
+    /// Another size, pixels; the picture is to be [asked for](Canvas::show) again.
+    pub fn resize(&mut self, in_flight: &mut InFlight, size: [u32; 2]) -> Result<(), TracerError> {
+        if size == self.size {
+            return Ok(());
+        }
+        let images = images(&self.device, &self.kernel, size)?;
+        for old in std::mem::replace(&mut self.images, images) {
+            in_flight.forget(&old.resource);
+        }
+        self.size = size;
+        self.sweep = Sweep::new(self.kernel.groups(size));
+        self.forget_scene();
+        Ok(())
+    }
+
+    fn forget_scene(&mut self) {
+        (self.current, self.next) = (None, None);
+        self.is_in_place = true;
+        self.sweep = Sweep::new(self.kernel.groups(self.size));
+        // What is still in flight is of no picture.
+        self.begun += 1;
+    }
+
+    /// Asks for a picture of the scene; of a scene unchanged, nothing is traced.
+    ///
+    /// # Errors
+    /// The kernel cannot take the scene; the picture stays as it is.
+    pub fn show(&mut self, scene: &Scene) -> Result<(), TracerError> {
+        let wanted = CourseScene::new(scene, scene.max_depth, self.size)?;
+        let latest = self.next.as_ref().or(self.current.as_ref());
+        if latest != Some(&wanted) {
+            self.next = Some(wanted);
+        }
+        Ok(())
+    }
+
+    /// Asks for the same picture once more.
+    pub fn trace_again(&mut self, scene: &Scene) -> Result<(), TracerError> {
+        if self.next.is_none() && !self.is_tracing() {
+            self.next = Some(CourseScene::new(scene, scene.max_depth, self.size)?);
+        }
+        Ok(())
+    }
+
+    /// Whether submissions are still needed for the picture asked for, or for the time that it took.
+    pub fn is_tracing(&self) -> bool {
+        self.next.is_some() || self.sweep.left() > 0 || self.places.iter().any(|place| place.chunk.is_some())
+    }
+
+    /// Whether all of the picture shown is of the scene asked for last.
+    pub fn is_whole(&self) -> bool {
+        self.next.is_none() && self.sweep.left() == 0
+    }
+
+    /// Whether the picture is seen while it comes into being: looking at it again shows more of it.
+    pub fn is_growing(&self) -> bool {
+        self.is_in_place && self.sweep.left() > 0
+    }
+
+    /// Share of the picture that is traced, while one is.
+    pub fn progress(&self) -> Option<f32> {
+        let total = self.sweep.total();
+        (self.sweep.left() > 0).then(|| (total - self.sweep.left()) as f32 / total as f32)
+    }
+
+    /// GPU times of the pictures that came to their end since the last call, nanoseconds; nothing where the device has
+    /// no timestamps.
+    pub fn take_finished_ns(&mut self) -> Vec<u64> {
+        std::mem::take(&mut self.finished_ns)
+    }
+
+    /// Bytes of primitives uploaded so far.
+    pub fn uploaded_bytes(&self) -> u64 {
+        self.uploaded_bytes
+    }
+
+    /// Reads the times of what was submitted from this place of the ring and has ended.
+    pub fn collect(&mut self, place: usize) -> Result<(), GpuError> {
+        let Place { timer, chunk } = &mut self.places[place];
+        let Some(chunk) = chunk.take() else { return Ok(()) };
+        let time_ns = timer.as_deref().map(Timer::elapsed_ns).transpose()?;
+        // Without timestamps, what the host saw is at least an upper bound.
+        let at_most_ns = || chunk.submitted.elapsed().as_nanos() as u64;
+        self.pace.measured(chunk.groups, time_ns.unwrap_or_else(at_most_ns));
+        if chunk.picture == self.begun {
+            self.picture_ns = self.picture_ns.zip(time_ns).map(|(sum, time_ns)| sum + time_ns);
+            if chunk.is_last {
+                self.finished_ns.extend(self.picture_ns);
+            }
+        }
+        Ok(())
+    }
+
+    /// Records the next chunk, if there is any, for a submission from this place of the ring, which is
+    /// [collected](Canvas::collect).
+    pub fn record(&mut self, recorder: &mut Recorder, place: usize) -> Result<(), GpuError> {
+        self.clear(recorder);
+        if self.sweep.left() == 0 || self.is_in_place {
+            self.begin(recorder);
+        }
+        let groups = self.pace.groups().min(self.sweep.left());
+        let Some(scene) = self.current.as_ref().filter(|_| groups > 0) else { return Ok(()) };
+        if self.is_long() && !self.is_in_place {
+            // Longer than expected: from here on it is seen.
+            self.shown = 1 - self.shown;
+            self.is_in_place = true;
+        }
+        let target = if self.is_in_place { self.shown } else { 1 - self.shown };
+        let image = &self.images[target];
+        let parts = self.sweep.take(groups);
+        let timer = &self.places[place].timer;
+        recorder.labelled("trace", |recorder| {
+            timer.iter().for_each(|timer| recorder.start(timer));
+            // After the timer's start: with a framebuffer around, lavapipe takes a time only at the next barrier.
+            recorder.make_ready(&image.resource, Use::ShaderWrite);
+            self.kernel.record(recorder, &image.set, &scene.frame, &parts);
+            timer.iter().for_each(|timer| recorder.stop(timer));
+            Ok(())
+        })?;
+        let is_last = self.sweep.left() == 0;
+        self.places[place].chunk = Some(Chunk { picture: self.begun, groups, is_last, submitted: Instant::now() });
+        if is_last {
+            self.shown = target;
+        }
+        Ok(())
+    }
+
+    /// Takes up the scene asked for.
+    fn begin(&mut self, recorder: &mut Recorder) {
+        let Some(scene) = self.next.take() else { return };
+        self.uploaded_bytes += self.kernel.update(recorder, &scene.primitives);
+        self.current = Some(scene);
+        self.begun += 1;
+        self.picture_ns = Some(0);
+        if self.sweep.left() > 0 {
+            self.sweep.start_here();
+        } else {
+            self.sweep.start();
+        }
+        self.is_in_place = self.is_long();
+    }
+
+    /// Whether a picture takes long, as far as is known.
+    fn is_long(&self) -> bool {
+        self.pace.expected_ns(self.sweep.total()).is_none_or(|time_ns| time_ns > LONG_NS)
+    }
+
+    fn clear(&mut self, recorder: &mut Recorder) {
+        let color = self.next.as_ref().or(self.current.as_ref()).map_or([0.0; 3], |scene| scene.frame.background);
+        for image in self.images.iter_mut().filter(|image| !image.is_cleared) {
+            recorder.make_ready(&image.resource, Use::CopyTarget);
+            recorder.clear(&image.resource, [color[0], color[1], color[2], 1.0]);
+            image.is_cleared = true;
+        }
+    }
+
+    /// The picture shown, as it is now.
+    pub fn read_back(&self, in_flight: &mut InFlight) -> Result<Frame, TracerError> {
+        let [width, height] = self.size;
+        let mut frame = Frame::new(width, height)?;
+        let bytes = frame.pixels().len() as u64 * StorageImage::PIXEL_BYTES;
+        let buffer = Arc::new(Buffer::new(&self.device, "picture read back", BufferKind::Readback, bytes)?);
+        let resource = Resource::from(&buffer);
+        in_flight.run(|recorder| {
+            recorder.make_ready(self.picture(), Use::CopySource);
+            recorder.make_ready(&resource, Use::CopyTarget);
+            recorder.copy_to_buffer(self.picture(), &resource, width, height);
+            recorder.make_ready(&resource, Use::HostRead);
+            Ok(())
+        })?;
+        in_flight.forget(&resource);
+        let pixels: &[[f32; 4]] = bytemuck::cast_slice(buffer.bytes()?);
+        for (target, &[r, g, b, _]) in frame.pixels_mut().iter_mut().zip(pixels) {
+            *target = [r, g, b];
+        }
+        Ok(frame)
+    }
+
+    /// Shows a picture traced elsewhere, of the canvas's size.
+    pub fn put(&mut self, in_flight: &mut InFlight, frame: &Frame) -> Result<(), TracerError> {
+        assert_eq!([frame.width(), frame.height()], self.size, "the picture is of another size");
+        self.forget_scene();
+        let pixels: Vec<[f32; 4]> = frame.pixels().iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
+        let bytes: &[u8] = bytemuck::cast_slice(&pixels);
+        let mut buffer = Buffer::new(&self.device, "picture to show", BufferKind::Upload, bytes.len() as u64)?;
+        buffer.write(bytes)?;
+        let resource = Resource::from(&Arc::new(buffer));
+        let image = &mut self.images[self.shown];
+        image.is_cleared = true;
+        in_flight.run(|recorder| {
+            recorder.make_ready(&image.resource, Use::CopyTarget);
+            recorder.copy_to_image(&resource, &image.resource, frame.width(), frame.height());
+            Ok(())
+        })?;
+        in_flight.forget(&resource);
+        Ok(())
+    }
+}
+
+fn images(device: &Arc<Device>, kernel: &CourseKernel, [width, height]: [u32; 2]) -> Result<[Image; 2], GpuError> {
+    let image = |name| {
+        let resource = Resource::from(&Arc::new(StorageImage::new(device, name, width, height)?));
+        Ok(Image { set: kernel.bind(&resource)?, resource, is_cleared: false })
+    };
+    Ok([image("picture 0")?, image("picture 1")?])
+}

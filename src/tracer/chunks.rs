@@ -1,0 +1,183 @@
+//! A picture traced a chunk at a time: in which order, and how much at once. Pure: no Vulkan.
+
+/// Workgroups of a picture: `groups` along x and y, from `first` on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Part {
+    pub first: [u32; 2],
+    pub groups: [u32; 2],
+}
+
+/// Goes through a picture's workgroups, row by row, in an order that spreads over the whole picture early: what is
+/// not yet traced anew lies between rows that are, and chunks of it cost much the same.
+#[derive(Debug)]
+pub(super) struct Sweep {
+    columns: u32,
+    /// Rows of workgroups, in their turn.
+    rows: Vec<u32>,
+    /// Place in the sequence of all workgroups.
+    next: u64,
+    left: u64,
+}
+
+impl Sweep {
+    /// With nothing left to do.
+    pub fn new([columns, rows]: [u32; 2]) -> Self {
+        let bits = u32::BITS - rows.saturating_sub(1).leading_zeros();
+        let reversed = |row: u32| if bits == 0 { 0 } else { row.reverse_bits() >> (u32::BITS - bits) };
+        let rows = (0..1 << bits).map(reversed).filter(|row| *row < rows).collect();
+        Self { columns, rows, next: 0, left: 0 }
+    }
+
+    pub fn total(&self) -> u64 {
+        u64::from(self.columns) * self.rows.len() as u64
+    }
+
+    pub fn left(&self) -> u64 {
+        self.left
+    }
+
+    /// From the first row on.
+    pub fn start(&mut self) {
+        self.next = 0;
+        self.left = self.total();
+    }
+
+    /// All over again, but from where it is: however often this is asked for, every row has its turn.
+    pub fn start_here(&mut self) {
+        self.left = self.total();
+    }
+
+    /// The next `count` workgroups, or those that are left.
+    pub fn take(&mut self, count: u64) -> Vec<Part> {
+        let mut count = count.min(self.left);
+        if count == self.total() && count > 0 {
+            self.left = 0;
+            return vec![Part { first: [0, 0], groups: [self.columns, self.rows.len() as u32] }];
+        }
+        let mut parts = Vec::new();
+        while count > 0 {
+            let (row, column) = (self.next / u64::from(self.columns), self.next % u64::from(self.columns));
+            let taken = count.min(u64::from(self.columns) - column);
+            parts.push(Part { first: [column as u32, self.rows[row as usize]], groups: [taken as u32, 1] });
+            self.next = (self.next + taken) % self.total();
+            self.left -= taken;
+            count -= taken;
+        }
+        parts
+    }
+}
+
+/// How many workgroups to trace at once, so that whoever waits for the device need not wait long.
+#[derive(Debug)]
+pub(super) struct Pace {
+    groups: u64,
+    ns_per_group: Option<f64>,
+}
+
+impl Pace {
+    /// Whoever waits for the device has at most [`InFlight::COUNT`](crate::gpu::InFlight::COUNT) chunks before him: a
+    /// panel that takes a CPU device another 20 ms to draw answers within the 100 ms that people take for at once.
+    const CHUNK_NS: f64 = 20e6;
+    /// Before anything is known: little even at a millisecond each, more than the slowest kernel took on two cores.
+    const FIRST_GROUPS: u64 = 16;
+    /// The next rows may be dearer than the last: the pace rises no faster than this, and falls at once.
+    const LARGEST_RISE: u64 = 4;
+
+    pub fn new() -> Self {
+        Self { groups: Self::FIRST_GROUPS, ns_per_group: None }
+    }
+
+    pub fn groups(&self) -> u64 {
+        self.groups
+    }
+
+    /// What so many workgroups would take; `None` before the first measurement.
+    pub fn expected_ns(&self, groups: u64) -> Option<f64> {
+        self.ns_per_group.map(|each| each * groups as f64)
+    }
+
+    pub fn measured(&mut self, groups: u64, time_ns: u64) {
+        if groups == 0 {
+            return;
+        }
+        let ns_per_group = (time_ns.max(1) as f64) / groups as f64;
+        self.ns_per_group = Some(ns_per_group);
+        let fitting = (Self::CHUNK_NS / ns_per_group) as u64;
+        self.groups = fitting.clamp(1, (groups.max(Self::FIRST_GROUPS)) * Self::LARGEST_RISE);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cover(parts: &[Part], seen: &mut [u32], columns: u32) {
+        for Part { first: [x, y], groups: [width, height] } in parts {
+            for row in *y..y + height {
+                for column in *x..x + width {
+                    seen[(row * columns + column) as usize] += 1;
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_sweep_takes_every_workgroup_once_in_chunks_of_any_size() {
+        for (columns, rows) in [(1, 1), (5, 1), (1, 7), (13, 8), (203, 88)] {
+            for count in [1, 2, 7, 64, 1000, u64::MAX] {
+                let mut sweep = Sweep::new([columns, rows]);
+                let mut seen = vec![0; (columns * rows) as usize];
+                sweep.start();
+                while sweep.left() > 0 {
+                    cover(&sweep.take(count), &mut seen, columns);
+                }
+                assert!(seen.iter().all(|&times| times == 1), "{columns}x{rows} by {count}");
+                assert_eq!(sweep.take(count), [], "nothing is left");
+            }
+        }
+    }
+
+    #[test]
+    fn starting_over_all_the_time_still_reaches_every_row() {
+        let mut sweep = Sweep::new([4, 9]);
+        let mut seen = vec![0; 36];
+        sweep.start();
+        for _ in 0..36 {
+            cover(&sweep.take(1), &mut seen, 4);
+            sweep.start_here();
+        }
+        assert!(seen.iter().all(|&times| times == 1), "{seen:?}");
+    }
+
+    #[test]
+    fn the_first_rows_spread_over_the_picture() {
+        let mut sweep = Sweep::new([1, 64]);
+        sweep.start();
+        let rows: Vec<u32> = sweep.take(4).iter().map(|part| part.first[1]).collect();
+        assert_eq!(rows, [0, 32, 16, 48]);
+    }
+
+    #[test]
+    fn a_picture_that_fits_is_one_part() {
+        let mut sweep = Sweep::new([13, 8]);
+        sweep.start();
+        assert_eq!(sweep.take(1000), [Part { first: [0, 0], groups: [13, 8] }]);
+    }
+
+    #[test]
+    fn the_pace_follows_the_time_measured_up_slowly_and_down_at_once() {
+        let mut pace = Pace::new();
+        let mut groups = Vec::new();
+        for _ in 0..8 {
+            pace.measured(pace.groups(), pace.groups() * 100_000);
+            groups.push(pace.groups());
+        }
+        assert_eq!(groups, [64, 200, 200, 200, 200, 200, 200, 200], "100 µs each: 200 of them take 20 ms");
+        pace.measured(200, 200_000_000);
+        assert_eq!(pace.groups(), 20);
+        pace.measured(20, u64::MAX);
+        assert_eq!(pace.groups(), 1, "never nothing");
+        pace.measured(1, 0);
+        assert!(pace.groups() > 1, "a clock that stood still");
+    }
+}

@@ -1,0 +1,188 @@
+//! The window and its events, from the first to the last.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+
+use winit::application::ApplicationHandler;
+use winit::dpi::LogicalSize;
+use winit::error::{EventLoopError, OsError};
+use winit::event::WindowEvent;
+use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
+use winit::window::{Window, WindowId};
+
+use super::document::Document;
+use super::preferences::{self, Preferences};
+use super::recovery_file;
+use super::screen::ScreenError;
+use super::session::{NextFrame, Session};
+use super::state::State;
+use crate::gpu::{Messages, Validation};
+
+/// How to open the window.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// Number or part of the name of a device.
+    pub device: Option<String>,
+    pub validation: Validation,
+    /// Prints a line of JSON for every frame that differs from the last.
+    pub is_observed: bool,
+    /// Acts as if the device was lost after so many frames.
+    pub lose_device_after: Option<u64>,
+    /// Where preferences and unsaved work are kept.
+    pub config_folder: Option<PathBuf>,
+}
+
+/// Why there is no window, or none any more.
+#[derive(Debug, thiserror::Error)]
+pub enum ViewerError {
+    #[error(
+        "no window can be opened here ({0}); without a display, draw into a file: zerkalo render SCENE --output OUT.png"
+    )]
+    NoDisplay(EventLoopError),
+    #[error("could not open the window: {0}")]
+    Window(#[from] OsError),
+    #[error(transparent)]
+    Screen(#[from] ScreenError),
+    #[error("the window's events came to an end: {0}")]
+    Events(EventLoopError),
+}
+
+/// What other threads wake the window for.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Wake {
+    /// The accurate picture has come on.
+    Reference,
+    /// The program is to end.
+    Stop,
+}
+
+/// Closes the window from another thread; unsaved work is kept for the next run.
+#[derive(Debug, Clone)]
+pub struct Stopper(EventLoopProxy<Wake>);
+
+impl Stopper {
+    pub fn stop(&self) {
+        // A window that is closed already needs no closing.
+        let _ = self.0.send_event(Wake::Stop);
+    }
+}
+
+/// Opens the window on a document, and returns when it is closed, with what the validation layer said. `on_start` is
+/// given what closes it.
+pub fn run(document: Document, options: Options, on_start: impl FnOnce(Stopper)) -> Result<Messages, ViewerError> {
+    let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(ViewerError::NoDisplay)?;
+    let folder = options.config_folder.as_deref();
+    let remembered = folder.map(|folder| Preferences::load(&preferences::file_in(folder)));
+    let recovered = folder.and_then(recovery_file::read);
+    let state = State::new(document, remembered.unwrap_or_default(), recovered);
+    let proxy = event_loop.create_proxy();
+    on_start(Stopper(proxy.clone()));
+    let mut app = App {
+        stage: Stage::Waiting(Some(Box::new(state))),
+        make_session: Box::new(move |window, state| Session::new(window, state, options.clone(), proxy.clone())),
+        messages: Messages::default(),
+        failure: None,
+    };
+    event_loop.run_app(&mut app).map_err(ViewerError::Events)?;
+    // The session's device is destroyed before its messages are counted: the layers check that too.
+    let App { stage, messages, failure, .. } = app;
+    drop(stage);
+    failure.map_or(Ok(messages), Err)
+}
+
+struct App {
+    stage: Stage,
+    make_session: Box<dyn Fn(Arc<Window>, State) -> Result<Session, ScreenError>>,
+    messages: Messages,
+    failure: Option<ViewerError>,
+}
+
+enum Stage {
+    /// For the event loop to say that windows can be opened; empty once one could not.
+    Waiting(Option<Box<State>>),
+    Open(Box<Session>),
+}
+
+impl App {
+    fn open(&mut self, event_loop: &ActiveEventLoop) -> Result<(), ViewerError> {
+        match &mut self.stage {
+            Stage::Open(session) => session.resume()?,
+            Stage::Waiting(state) => {
+                let Some(state) = state.take() else { return Ok(()) };
+                let [width, height] = state.preferences.window_size;
+                let attributes =
+                    Window::default_attributes().with_title("zerkalo").with_inner_size(LogicalSize::new(width, height));
+                let window = Arc::new(event_loop.create_window(attributes)?);
+                let session = (self.make_session)(window, *state)?;
+                self.messages = session.messages();
+                session.window().request_redraw();
+                self.stage = Stage::Open(Box::new(session));
+            }
+        }
+        Ok(())
+    }
+
+    fn fail(&mut self, event_loop: &ActiveEventLoop, failure: ViewerError) {
+        self.failure.get_or_insert(failure);
+        event_loop.exit();
+    }
+}
+
+impl ApplicationHandler<Wake> for App {
+    fn resumed(&mut self, event_loop: &ActiveEventLoop) {
+        if let Err(failure) = self.open(event_loop) {
+            self.fail(event_loop, failure);
+        }
+    }
+
+    fn suspended(&mut self, event_loop: &ActiveEventLoop) {
+        if let Stage::Open(session) = &mut self.stage
+            && let Err(failure) = session.suspend()
+        {
+            self.fail(event_loop, failure.into());
+        }
+    }
+
+    fn window_event(&mut self, event_loop: &ActiveEventLoop, _window: WindowId, event: WindowEvent) {
+        let Stage::Open(session) = &mut self.stage else { return };
+        if event == WindowEvent::RedrawRequested {
+            match session.paint() {
+                Ok(NextFrame::AtOnce) => session.window().request_redraw(),
+                Ok(NextFrame::At(time)) => event_loop.set_control_flow(ControlFlow::WaitUntil(time)),
+                Ok(NextFrame::Whenever) => event_loop.set_control_flow(ControlFlow::Wait),
+                Err(failure) => return self.fail(event_loop, failure.into()),
+            }
+        } else if session.on_event(&event) {
+            session.window().request_redraw();
+        }
+        if session.is_quitting() {
+            event_loop.exit();
+        }
+    }
+
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Wake) {
+        match (event, &mut self.stage) {
+            (Wake::Reference, Stage::Open(session)) => {
+                session.wake();
+                session.window().request_redraw();
+            }
+            (Wake::Reference, Stage::Waiting(_)) => {}
+            (Wake::Stop, _) => event_loop.exit(),
+        }
+    }
+
+    fn new_events(&mut self, event_loop: &ActiveEventLoop, cause: winit::event::StartCause) {
+        if matches!(cause, winit::event::StartCause::ResumeTimeReached { .. })
+            && let Stage::Open(session) = &self.stage
+        {
+            event_loop.set_control_flow(ControlFlow::Wait);
+            session.window().request_redraw();
+        }
+    }
+
+    fn exiting(&mut self, _event_loop: &ActiveEventLoop) {
+        if let Stage::Open(session) = &mut self.stage {
+            session.finish();
+        }
+    }
+}

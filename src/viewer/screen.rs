@@ -1,0 +1,225 @@
+//! The window's picture and widgets on the device: everything that is lost with it, and nothing else.
+
+use std::sync::Arc;
+
+use egui::epaint::textures::TexturesDelta;
+use egui::{ClippedPrimitive, TextureId};
+use egui_ash_renderer::allocator::GpuAllocator;
+use egui_ash_renderer::{Options, RenderMode, Renderer, RendererError};
+
+use super::swapchain::{Fit, Swapchain};
+use crate::gpu::{
+    Device, GpuError, InFlight, Instance, Messages, Semaphores, Shader, Surface, SurfaceTarget, Validation,
+};
+use crate::tracer::{Canvas, TracerError};
+
+/// Why the window cannot go on.
+#[derive(Debug, thiserror::Error)]
+pub enum ScreenError {
+    #[error(transparent)]
+    Tracer(#[from] TracerError),
+    #[error("could not draw the widgets: {0}")]
+    Widgets(#[from] RendererError),
+}
+
+impl From<GpuError> for ScreenError {
+    fn from(error: GpuError) -> Self {
+        Self::Tracer(error.into())
+    }
+}
+
+impl ScreenError {
+    /// Whether the device is gone, which a new [`Screen`] may mend.
+    pub fn is_device_lost(&self) -> bool {
+        match self {
+            Self::Tracer(TracerError::Gpu(error)) => error.is_device_lost(),
+            Self::Widgets(RendererError::Vulkan(result)) => *result == ash::vk::Result::ERROR_DEVICE_LOST,
+            _ => false,
+        }
+    }
+}
+
+/// The widgets of one frame, ready to be drawn.
+pub struct Widgets {
+    pub textures: TexturesDelta,
+    pub primitives: Vec<ClippedPrimitive>,
+    pub pixels_per_point: f32,
+}
+
+/// A device with a window's swapchain, what draws the widgets, and the canvas.
+///
+/// The fields are dropped in this order.
+pub struct Screen {
+    pub canvas: Canvas,
+    painter: Option<Painter>,
+    swapchain: Option<Swapchain>,
+    pub in_flight: InFlight,
+    is_outdated: bool,
+    waits_for_display: bool,
+    surface: Arc<Surface>,
+    target: Arc<dyn SurfaceTarget>,
+    device: Arc<Device>,
+}
+
+/// What draws the widgets into one swapchain's render pass.
+struct Painter {
+    renderer: Renderer<GpuAllocator>,
+    /// No longer used by new frames, but perhaps by one in flight.
+    freed: Vec<TextureId>,
+}
+
+impl Screen {
+    /// On the device `wanted`, or the best one that can show pictures in the window `target`.
+    pub fn new(
+        target: Arc<dyn SurfaceTarget>,
+        wanted: Option<&str>,
+        validation: Validation,
+        shader: &Shader,
+        waits_for_display: bool,
+    ) -> Result<Self, ScreenError> {
+        let instance = Instance::for_window(validation, &*target)?;
+        let surface = Arc::new(Surface::new(&instance, &target)?);
+        let device = Device::open_for(&surface, wanted)?;
+        Ok(Self {
+            canvas: Canvas::new(&device, shader, [1, 1])?,
+            painter: None,
+            swapchain: None,
+            in_flight: InFlight::new(&device, "window")?,
+            is_outdated: true,
+            waits_for_display,
+            surface,
+            target,
+            device,
+        })
+    }
+
+    pub fn device(&self) -> &Device {
+        &self.device
+    }
+
+    pub fn messages(&self) -> Messages {
+        self.device.messages().clone()
+    }
+
+    /// Before the next frame the swapchain is made anew: the window has another size, or shows pictures otherwise.
+    pub fn set_outdated(&mut self, waits_for_display: bool) {
+        self.is_outdated = true;
+        self.waits_for_display = waits_for_display;
+    }
+
+    /// Makes the swapchain go with a window of `size` pixels; `false` while nothing of it is to be seen.
+    pub fn prepare(&mut self, size: [u32; 2]) -> Result<bool, ScreenError> {
+        if self.is_outdated {
+            self.in_flight.wait_for_all()?;
+            // The window cannot serve two at a time.
+            self.swapchain = None;
+            self.swapchain = Swapchain::new(&self.device, &self.surface, size, self.waits_for_display)?;
+            let Some(swapchain) = &self.swapchain else { return Ok(false) };
+            self.is_outdated = false;
+            let render_mode = RenderMode::RenderPass(swapchain.render_pass);
+            match &mut self.painter {
+                Some(painter) => painter.renderer.set_render_mode(render_mode)?,
+                None => {
+                    let options = Options { in_flight_frames: InFlight::COUNT, ..Options::default() };
+                    let (allocator, device) = (self.device.allocator().clone(), self.device.raw.clone());
+                    let renderer = Renderer::with_gpu_allocator(allocator, device, render_mode, options)?;
+                    self.painter = Some(Painter { renderer, freed: Vec::new() });
+                }
+            }
+        }
+        Ok(self.swapchain.is_some())
+    }
+
+    /// Traces a chunk, if there is one, and shows nothing.
+    pub fn trace(&mut self) -> Result<(), ScreenError> {
+        let place = self.in_flight.wait_for_place()?;
+        self.canvas.collect(place)?;
+        let canvas = &mut self.canvas;
+        Ok(self.in_flight.submit(Semaphores::default(), |recorder| canvas.record(recorder, place))?)
+    }
+
+    /// Traces a chunk, if there is one, and shows picture and widgets. The picture's corner is at `corner`, pixels.
+    /// [`Screen::prepare`] must have said that there is something to be seen.
+    pub fn show(&mut self, widgets: &mut Widgets, background: [f32; 4], corner: [u32; 2]) -> Result<(), ScreenError> {
+        let (Some(swapchain), Some(painter)) = (&mut self.swapchain, &mut self.painter) else { return Ok(()) };
+        painter.take_textures(&self.device, &mut self.in_flight, &mut widgets.textures)?;
+        let place = self.in_flight.wait_for_place()?;
+        self.canvas.collect(place)?;
+
+        let image = match swapchain.acquire()? {
+            Ok(image) => image,
+            Err(fit) => return self.mend(fit),
+        };
+        let mut failed = None;
+        let extent = swapchain.extent();
+        self.in_flight.submit(swapchain.semaphores(image), |recorder| {
+            self.canvas.record(recorder, place)?;
+            swapchain.record(recorder, image, background, self.canvas.picture(), corner, |commands| {
+                let drawn = painter.renderer.cmd_draw(commands, extent, widgets.pixels_per_point, &widgets.primitives);
+                failed = drawn.err();
+            })
+        })?;
+        let fit = swapchain.present(image)?;
+        self.mend(fit)?;
+        failed.map_or(Ok(()), |error| Err(error.into()))
+    }
+
+    fn mend(&mut self, fit: Fit) -> Result<(), ScreenError> {
+        match fit {
+            Fit::Good => {}
+            Fit::Outdated => self.is_outdated = true,
+            Fit::SurfaceLost => self.replace_surface()?,
+        }
+        Ok(())
+    }
+
+    /// The window has another surface, as after the program was suspended.
+    pub fn replace_surface(&mut self) -> Result<(), ScreenError> {
+        self.in_flight.wait_for_all()?;
+        self.swapchain = None;
+        self.surface = Arc::new(Surface::new(self.device.instance(), &self.target)?);
+        self.is_outdated = true;
+        Ok(())
+    }
+
+    /// The window loses its surface until [`Screen::replace_surface`].
+    pub fn suspend(&mut self) -> Result<(), ScreenError> {
+        self.in_flight.wait_for_all()?;
+        self.swapchain = None;
+        self.is_outdated = true;
+        Ok(())
+    }
+}
+
+impl Drop for Screen {
+    fn drop(&mut self) {
+        // What the frames in flight use goes with the fields; on a lost device nothing runs any more.
+        let _ = self.in_flight.wait_for_all();
+    }
+}
+
+impl Painter {
+    /// New and freed textures of the widgets: letters, mostly. Rare enough for waiting until the device is idle, which
+    /// the renderer does in any case.
+    fn take_textures(
+        &mut self,
+        device: &Device,
+        in_flight: &mut InFlight,
+        textures: &mut TexturesDelta,
+    ) -> Result<(), ScreenError> {
+        let textures = std::mem::take(textures);
+        if textures.is_empty() && self.freed.is_empty() {
+            return Ok(());
+        }
+        let pool = in_flight.idle_pool()?;
+        for id in std::mem::replace(&mut self.freed, textures.free.iter().copied().collect()) {
+            self.renderer.free_texture(id)?;
+        }
+        for (id, deltas) in &textures.set {
+            for delta in deltas {
+                self.renderer.set_texture(device.queue, pool, *id, delta)?;
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,359 @@
+//! From what the window knows to what it shows.
+
+use std::time::{Duration, Instant};
+
+use super::super::action::Kernel;
+use super::super::app::Wake;
+use super::super::observer::{Observation, widgets};
+use super::super::panel::{Readings, Shown, style};
+use super::super::reference_worker::ReferenceWorker;
+use super::super::screen::{Screen, ScreenError, Widgets};
+use super::super::state::Dialog;
+use super::super::{camera_motion, highlight, preferences};
+use super::{Losses, NextFrame, Reference, Session, new_egui, open_screen};
+use crate::gpu::GpuError;
+use crate::scene::Scene;
+use crate::tracer::TracerError;
+
+/// A step of the camera while a key is held covers at most this, however long the frame before took.
+const LONGEST_STEP: Duration = Duration::from_millis(250);
+
+/// A picture that takes long is shown as it grows, so often.
+const GROWING_PERIOD: Duration = Duration::from_millis(100);
+
+/// Where neither picture nor widgets are: a line at the picture's edge at most.
+const BACKGROUND: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
+
+impl Session {
+    /// Draws a frame; a lost device is replaced once.
+    pub fn paint(&mut self) -> Result<NextFrame, ScreenError> {
+        match self.try_paint() {
+            Err(error) if error.is_device_lost() && !self.losses.is_fresh => {
+                self.keep_work();
+                self.losses = Losses { count: self.losses.count + 1, is_fresh: true };
+                // The window cannot serve two.
+                self.screen = None;
+                self.screen = Some(open_screen(&self.window, &self.state, &self.options)?);
+                // The new device has none of the textures that the old context has told of.
+                (self.context, self.egui) = new_egui(&self.window, self.options.is_observed);
+                self.reference = Reference::default();
+                self.wake();
+                Ok(NextFrame::AtOnce)
+            }
+            painted => painted,
+        }
+    }
+
+    fn try_paint(&mut self) -> Result<NextFrame, ScreenError> {
+        let size = self.window.inner_size();
+        let Some(screen) = &mut self.screen else { return Ok(NextFrame::Whenever) };
+        if size.width == 0 || size.height == 0 || !screen.prepare([size.width, size.height])? {
+            return Ok(NextFrame::Whenever);
+        }
+        if self.is_only_tracing() {
+            self.trace()?;
+        } else {
+            self.show()?;
+        }
+        self.frames += 1;
+        if self.options.lose_device_after == Some(self.frames) {
+            let result = ash::vk::Result::ERROR_DEVICE_LOST;
+            return Err(GpuError::Call { operation: "go on, as asked".into(), result }.into());
+        }
+        Ok(self.next_frame())
+    }
+
+    /// Whether there is nothing new to look at yet.
+    fn is_only_tracing(&self) -> bool {
+        let is_due = self.widgets_due.is_some_and(|due| due <= Instant::now());
+        let is_worth_a_look = |screen: &Screen| {
+            screen.canvas.is_growing() && self.last_frame.elapsed() >= GROWING_PERIOD || !screen.canvas.is_tracing()
+        };
+        !is_due && !self.screen.as_ref().is_none_or(is_worth_a_look)
+    }
+
+    fn trace(&mut self) -> Result<(), ScreenError> {
+        let is_whole_before = self.is_whole();
+        let Some(screen) = &mut self.screen else { return Ok(()) };
+        screen.trace()?;
+        let has_news = self.take_times();
+        if has_news || self.is_whole() != is_whole_before {
+            self.wake();
+        }
+        Ok(())
+    }
+
+    fn show(&mut self) -> Result<(), ScreenError> {
+        self.widgets_due = None;
+        self.fly();
+        let (mut widgets, observation, repaint_delay) = self.run_widgets();
+        self.widgets_due = Instant::now().checked_add(repaint_delay);
+        self.ask_for_picture()?;
+        self.present(&mut widgets)?;
+        self.take_screenshots()?;
+        self.note_change();
+        self.observe(observation);
+        Ok(())
+    }
+
+    /// The widgets are to be drawn with the next frame.
+    pub fn wake(&mut self) {
+        self.widgets_due = Some(Instant::now());
+    }
+
+    /// Takes in the times of the pictures that came to their end; whether there were any.
+    fn take_times(&mut self) -> bool {
+        let Some(screen) = &mut self.screen else { return false };
+        let finished = screen.canvas.take_finished_ns();
+        self.pictures_traced += finished.len() as u64;
+        finished.iter().for_each(|time_ns| self.frame_times.push(*time_ns));
+        !finished.is_empty()
+    }
+
+    /// Moves the camera by the keys held.
+    fn fly(&mut self) {
+        let now = Instant::now();
+        let step = (now - std::mem::replace(&mut self.last_frame, now)).min(LONGEST_STEP);
+        if let Some(flight) = self.input.flight() {
+            let speed = self.state.preferences.fly_speed;
+            camera_motion::fly(self.state.document.camera_mut(), flight, step.as_secs_f64(), speed);
+        }
+    }
+
+    /// Draws the widgets and does what they ask; returns with them when they want to be drawn again.
+    fn run_widgets(&mut self) -> (Widgets, Option<Observation>, Duration) {
+        style(&self.context, &self.state.preferences);
+        let input = self.egui.take_egui_input(&self.window);
+        let context = self.context.clone();
+        let mut shown = Shown { actions: Vec::new(), picture: self.picture, is_settled: true };
+        let mut output = context.run_ui(input, |ui| {
+            // egui may need a second pass to lay out a frame; what either asks for is to be done.
+            let mut actions = std::mem::take(&mut shown.actions);
+            shown = self.show_panel(ui);
+            actions.append(&mut shown.actions);
+            shown.actions = actions;
+        });
+        self.picture = shown.picture;
+        let pixels_per_point = output.pixels_per_point;
+        let observation = self.observer.is_some().then(|| {
+            let mut observation = Observation::of(&self.state, &shown, pixels_per_point);
+            let tree = output.platform_output.accesskit_update.as_ref();
+            observation.widgets = tree.map(|tree| widgets(tree, pixels_per_point)).unwrap_or_default();
+            observation
+        });
+        let is_asked = !shown.actions.is_empty();
+        shown.actions.into_iter().for_each(|action| self.apply(action));
+        if shown.is_settled && !self.input.is_busy() {
+            self.state.document.end_run();
+        }
+        self.egui.handle_platform_output(&self.window, std::mem::take(&mut output.platform_output));
+        let viewport = output.viewport_output.get(&egui::ViewportId::ROOT);
+        // What was asked for is seen in the next frame.
+        let delay = viewport.map_or(Duration::MAX, |viewport| viewport.repaint_delay);
+        let delay = if is_asked { Duration::ZERO } else { delay };
+        let primitives = context.tessellate(std::mem::take(&mut output.shapes), pixels_per_point);
+        let textures = std::mem::take(&mut output.textures_delta);
+        (Widgets { textures, primitives, pixels_per_point }, observation, delay)
+    }
+
+    fn show_panel(&mut self, ui: &mut egui::Ui) -> Shown {
+        let (_, picture_size) = self.picture_pixels();
+        let progress = match (&self.reference.worker, &self.screen) {
+            (Some(worker), _) => Some(worker.progress()),
+            (None, Some(screen)) => screen.canvas.progress(),
+            (None, None) => None,
+        };
+        let readings = Readings {
+            device: self.screen.as_ref().map_or("", |screen| &screen.device().description().name),
+            picture_size,
+            frame_times: &self.frame_times,
+            progress,
+            refusal: self.refusal.as_deref(),
+            shader_error: self.shader_error.as_deref(),
+        };
+        let shown = self.panel.show(ui, &self.state, &readings);
+        if let Some(primitive) = self.state.document.selected() {
+            let camera = &self.state.document.scene().camera;
+            let (corner, size) = self.picture_pixels();
+            let scale = ui.ctx().pixels_per_point();
+            // Where the picture's pixels are, which the free place may miss by half of one.
+            let corner = egui::pos2(corner[0] as f32, corner[1] as f32) / scale;
+            let place = egui::Rect::from_min_size(corner, egui::vec2(size[0] as f32, size[1] as f32) / scale);
+            highlight::draw(ui.painter(), place, size, camera, &primitive.solid);
+        }
+        shown
+    }
+
+    /// Has the picture of the scene as it is now traced, if it is not yet.
+    fn ask_for_picture(&mut self) -> Result<(), ScreenError> {
+        let (_, size) = self.picture_pixels();
+        let Some(screen) = &mut self.screen else { return Ok(()) };
+        if size != screen.canvas.size() {
+            screen.canvas.resize(&mut screen.in_flight, size)?;
+            self.frame_times.clear();
+            self.reference.shown = None;
+        }
+        let scene = self.state.document.scene();
+        let asked = match self.state.kernel {
+            Kernel::Course => {
+                self.reference = Reference::default();
+                let shown = screen.canvas.show(scene);
+                if shown.is_ok() && self.state.is_continuous { screen.canvas.trace_again(scene) } else { shown }
+            }
+            Kernel::Reference => self.ask_for_reference(),
+        };
+        self.refusal = match asked {
+            Ok(()) => None,
+            Err(TracerError::Refused(reason)) => Some(reason),
+            Err(error) => return Err(error.into()),
+        };
+        Ok(())
+    }
+
+    fn ask_for_reference(&mut self) -> Result<(), TracerError> {
+        let Some(screen) = &mut self.screen else { return Ok(()) };
+        let (scene, size) = (self.state.document.scene(), screen.canvas.size());
+        let Reference { worker, shown } = &mut self.reference;
+        if let Some(Ok(frame)) = worker.as_ref().filter(|worker| worker.size == size).and_then(ReferenceWorker::take) {
+            screen.canvas.put(&mut screen.in_flight, &frame)?;
+            self.pictures_traced += 1;
+            *shown = worker.take().map(|worker| (worker.scene.clone(), worker.size));
+        }
+        let is_current = |of: &(Scene, [u32; 2])| of.0 == *scene && of.1 == size;
+        let is_asked = worker.as_ref().is_some_and(|worker| worker.scene == *scene && worker.size == size);
+        if shown.as_ref().is_some_and(is_current) {
+            *worker = None;
+        } else if !is_asked {
+            let proxy = self.proxy.clone();
+            let wake = move || {
+                // A loop that has ended needs no waking.
+                let _ = proxy.send_event(Wake::Reference);
+            };
+            *worker = Some(ReferenceWorker::start(scene.clone(), size, wake));
+        }
+        Ok(())
+    }
+
+    /// Whether the picture shown is all of the scene as it is now.
+    fn is_whole(&self) -> bool {
+        let is_traced = self.screen.as_ref().is_some_and(|screen| screen.canvas.is_whole());
+        self.refusal.is_none() && self.reference.worker.is_none() && is_traced
+    }
+
+    fn present(&mut self, widgets: &mut Widgets) -> Result<(), ScreenError> {
+        let (corner, _) = self.picture_pixels();
+        let is_whole_before = self.is_whole();
+        let Some(screen) = &mut self.screen else { return Ok(()) };
+        screen.show(widgets, BACKGROUND, corner)?;
+        if self.take_times() {
+            self.wake();
+        }
+        let input_at = self.latency.input_at.take();
+        if !is_whole_before && self.latency.changed_at.is_none() {
+            self.latency.changed_at = input_at;
+        }
+        if self.is_whole() {
+            self.losses.is_fresh = false;
+            if let Some(changed_at) = self.latency.changed_at.take()
+                && self.observer.is_some()
+                && let Some(screen) = &mut self.screen
+            {
+                // Only who asks for the figure pays for it.
+                screen.in_flight.wait_for_all()?;
+                self.latency.last_ms = Some(changed_at.elapsed().as_secs_f64() * 1e3);
+            }
+        }
+        Ok(())
+    }
+
+    /// Of whole pictures only; until then they wait.
+    fn take_screenshots(&mut self) -> Result<(), ScreenError> {
+        if self.screenshots.is_empty() || !self.is_whole() {
+            return Ok(());
+        }
+        let Some(screen) = &mut self.screen else { return Ok(()) };
+        let frame = screen.canvas.read_back(&mut screen.in_flight)?;
+        for path in std::mem::take(&mut self.screenshots) {
+            if let Err(error) = frame.save(&path) {
+                self.state.report(error);
+            }
+        }
+        Ok(())
+    }
+
+    /// What the window's frame tells, and what is to be kept should the program not come to a good end.
+    fn note_change(&mut self) {
+        let document = &self.state.document;
+        let name = document.path().and_then(|path| path.file_name()).map(|name| name.display().to_string());
+        let mark = if document.has_unsaved_changes() { "* " } else { "" };
+        let name = name.map(|name| name + " — ").unwrap_or_default();
+        self.window.set_title(&format!("{mark}{name}zerkalo"));
+        if !self.is_recovering() {
+            self.recovery.note(document);
+        }
+    }
+
+    fn keep_work(&mut self) {
+        if !self.is_recovering() {
+            self.recovery.keep(&self.state.document);
+        }
+    }
+
+    /// Whether the last run's unsaved work is still to be decided about: it must not be written over.
+    fn is_recovering(&self) -> bool {
+        self.state.dialog == Some(Dialog::Recover)
+    }
+
+    /// After the last frame: the preferences are kept and, unless the user has decided about it, unsaved work.
+    pub fn finish(&mut self) {
+        if self.is_quitting && !self.is_recovering() {
+            self.recovery.forget();
+        } else {
+            self.keep_work();
+        }
+        let size = self.window.inner_size().to_logical::<u32>(self.window.scale_factor());
+        if size.width > 0 && size.height > 0 {
+            self.state.preferences.window_size = [size.width, size.height];
+        }
+        if let Some(folder) = &self.options.config_folder {
+            // A window that cannot remember its size is still a window.
+            let _ = self.state.preferences.save(&preferences::file_in(folder));
+        }
+    }
+
+    fn observe(&mut self, observation: Option<Observation>) {
+        let is_whole = self.is_whole();
+        let (Some(observer), Some(mut observation), Some(screen)) = (&mut self.observer, observation, &self.screen)
+        else {
+            return;
+        };
+        let size = self.window.inner_size();
+        observation.window = [size.width, size.height];
+        observation.picture_size = screen.canvas.size();
+        observation.is_whole = is_whole;
+        observation.pictures_traced = self.pictures_traced;
+        observation.latency_ms = self.latency.last_ms;
+        observation.gpu_time_ms = self.frame_times.percentile_ns(50).map(|median_ns| median_ns as f64 / 1e6);
+        observation.uploaded_bytes = screen.canvas.uploaded_bytes();
+        observation.refusal = self.refusal.clone();
+        observation.device_losses = self.losses.count;
+        observation.validation_messages = self.messages.count();
+        if observer.tell(observation).is_err() {
+            // Whoever listened has gone.
+            self.observer = None;
+        }
+    }
+
+    fn next_frame(&self) -> NextFrame {
+        let is_tracing = self.screen.as_ref().is_some_and(|screen| screen.canvas.is_tracing());
+        if is_tracing || self.input.flight().is_some() {
+            return NextFrame::AtOnce;
+        }
+        let recovery = self.recovery.due(&self.state.document).filter(|_| !self.is_recovering());
+        match self.widgets_due.into_iter().chain(recovery).min() {
+            Some(due) if due <= Instant::now() => NextFrame::AtOnce,
+            Some(due) => NextFrame::At(due),
+            None => NextFrame::Whenever,
+        }
+    }
+}

@@ -1,0 +1,93 @@
+//! What to take of what a window offers. Pure.
+
+use ash::vk;
+
+pub(super) fn choose_extent(capabilities: &vk::SurfaceCapabilitiesKHR, wanted: [u32; 2]) -> vk::Extent2D {
+    // The specification's word for «as you like».
+    if capabilities.current_extent.width != u32::MAX {
+        return capabilities.current_extent;
+    }
+    let (least, most) = (capabilities.min_image_extent, capabilities.max_image_extent);
+    vk::Extent2D {
+        width: wanted[0].min(most.width).max(least.width),
+        height: wanted[1].min(most.height).max(least.height),
+    }
+}
+
+/// Values are shown as they are, without gamma, as the course's display did; so no `_SRGB` format.
+pub(super) fn choose_format(formats: &[vk::SurfaceFormatKHR]) -> Option<vk::SurfaceFormatKHR> {
+    let wanted = [vk::Format::B8G8R8A8_UNORM, vk::Format::R8G8B8A8_UNORM, vk::Format::A8B8G8R8_UNORM_PACK32];
+    wanted.into_iter().find_map(|wanted| {
+        let fits = |format: &&vk::SurfaceFormatKHR| {
+            format.format == wanted && format.color_space == vk::ColorSpaceKHR::SRGB_NONLINEAR
+        };
+        formats.iter().find(fits).copied()
+    })
+}
+
+/// FIFO is always there. Without waiting: what drops late images, then what tears.
+pub(super) fn choose_present_mode(modes: &[vk::PresentModeKHR], waits_for_display: bool) -> vk::PresentModeKHR {
+    let free = [vk::PresentModeKHR::MAILBOX, vk::PresentModeKHR::IMMEDIATE];
+    let chosen = free.into_iter().find(|mode| !waits_for_display && modes.contains(mode));
+    chosen.unwrap_or(vk::PresentModeKHR::FIFO)
+}
+
+/// One more than the least, so that none of them need be waited for while the window system holds the others.
+pub(super) fn choose_image_count(capabilities: &vk::SurfaceCapabilitiesKHR) -> u32 {
+    let wanted = capabilities.min_image_count + 1;
+    // 0 means no limit.
+    if capabilities.max_image_count == 0 { wanted } else { wanted.min(capabilities.max_image_count) }
+}
+
+pub(super) fn choose_alpha(supported: vk::CompositeAlphaFlagsKHR) -> vk::CompositeAlphaFlagsKHR {
+    let wanted = [vk::CompositeAlphaFlagsKHR::OPAQUE, vk::CompositeAlphaFlagsKHR::INHERIT];
+    wanted.into_iter().find(|alpha| supported.contains(*alpha)).unwrap_or(vk::CompositeAlphaFlagsKHR::OPAQUE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn extent(width: u32, height: u32) -> vk::Extent2D {
+        vk::Extent2D { width, height }
+    }
+
+    #[test]
+    fn no_format_with_gamma_is_taken() {
+        let format = |format| vk::SurfaceFormatKHR { format, color_space: vk::ColorSpaceKHR::SRGB_NONLINEAR };
+        let offered = [format(vk::Format::B8G8R8A8_SRGB), format(vk::Format::R8G8B8A8_UNORM)];
+        assert_eq!(choose_format(&offered).map(|chosen| chosen.format), Some(vk::Format::R8G8B8A8_UNORM));
+        assert!(choose_format(&offered[..1]).is_none());
+    }
+
+    #[test]
+    fn the_display_is_waited_for_unless_told_otherwise() {
+        use vk::PresentModeKHR as Mode;
+        let all = [Mode::IMMEDIATE, Mode::MAILBOX, Mode::FIFO];
+        assert_eq!(choose_present_mode(&all, true), Mode::FIFO);
+        assert_eq!(choose_present_mode(&all, false), Mode::MAILBOX);
+        assert_eq!(choose_present_mode(&[Mode::IMMEDIATE, Mode::FIFO], false), Mode::IMMEDIATE);
+        assert_eq!(choose_present_mode(&[Mode::FIFO], false), Mode::FIFO);
+    }
+
+    #[test]
+    fn a_window_that_leaves_the_size_to_us_gets_what_is_wanted_within_its_limits() {
+        let mut capabilities = vk::SurfaceCapabilitiesKHR {
+            current_extent: extent(u32::MAX, u32::MAX),
+            min_image_extent: extent(1, 1),
+            max_image_extent: extent(100, 100),
+            ..Default::default()
+        };
+        assert_eq!(choose_extent(&capabilities, [50, 500]), extent(50, 100));
+        capabilities.current_extent = extent(0, 0);
+        assert_eq!(choose_extent(&capabilities, [50, 500]), extent(0, 0), "minimised");
+    }
+
+    #[test]
+    fn the_number_of_images_stays_within_the_windows_limit() {
+        let count = |min_image_count, max_image_count| {
+            choose_image_count(&vk::SurfaceCapabilitiesKHR { min_image_count, max_image_count, ..Default::default() })
+        };
+        assert_eq!((count(2, 0), count(2, 8), count(3, 3)), (3, 3, 3));
+    }
+}
