@@ -7,7 +7,8 @@ use zerkalo::command::{Command, exit_code, interrupt};
 
 /// A Vulkan ray tracer for simple solids with adjustable reflection.
 ///
-/// Without a command it renders the showcase scene to zerkalo.png.
+/// Without a command it opens its window on the showcase scene; where there is no display, it renders the scene to
+/// zerkalo.png.
 #[derive(Debug, Parser)]
 #[command(name = "zerkalo", version)]
 struct Cli {
@@ -29,7 +30,19 @@ fn main() -> ExitCode {
 
 /// What `zerkalo` does without a word.
 fn showcase() -> Command {
-    let words = ["zerkalo", "render", "showcase", "--output", "zerkalo.png"];
+    let words: &[&str] = if has_display() {
+        &["zerkalo", "view", "showcase"]
+    } else {
+        eprintln!("zerkalo: no display here, so the showcase goes into a file; see `zerkalo --help`");
+        &["zerkalo", "render", "showcase", "--output", "zerkalo.png"]
+    };
     // invariant: a command line without mistakes, as tests/command_line.rs shows.
     Cli::parse_from(words).command.expect("it has a command")
+}
+
+/// Whether a window can be hoped for: on Unix the environment names the display, elsewhere there is one.
+fn has_display() -> bool {
+    let is_named = |variable| std::env::var_os(variable).is_some_and(|display| !display.is_empty());
+    !cfg!(all(unix, not(target_vendor = "apple")))
+        || ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"].into_iter().any(is_named)
 }

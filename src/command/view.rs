@@ -1,5 +1,7 @@
 //! `zerkalo view [SCENE]`: the window.
 
+use std::path::PathBuf;
+
 use anyhow::Result;
 use clap::Args;
 
@@ -25,6 +27,9 @@ pub struct ViewArgs {
     /// shown, and where the widgets are
     #[arg(long)]
     pub observe: bool,
+    /// Compile the kernel anew whenever its sources, this program's own or those in DIR, change; in debug builds only
+    #[arg(long, value_name = "DIR", num_args = 0..=1, default_missing_value = concat!(env!("CARGO_MANIFEST_DIR"), "/glsl"))]
+    pub watch: Option<PathBuf>,
     /// Act as if the device was lost after so many frames
     #[arg(long, value_name = "FRAMES", hide = true)]
     pub lose_device_after: Option<u64>,
@@ -32,6 +37,10 @@ pub struct ViewArgs {
 
 /// Returns when the window is closed. Fails then when validation had anything to say.
 pub fn run(args: &ViewArgs) -> Result<()> {
+    if args.watch.is_some() && !cfg!(debug_assertions) {
+        let reason = "--watch needs a debug build, which has the shader compiler in it: cargo run -- view --watch";
+        return Err(TracerError::Refused(reason.to_owned()).into());
+    }
     let scene = scene_named(&args.scene)?;
     let is_file = gallery::scene(&args.scene).is_none();
     let document = Document::new(scene, is_file.then(|| args.scene.clone().into()));
@@ -39,6 +48,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         device: args.device.device.clone(),
         validation: if args.validate { Validation::BestPractices } else { Validation::Off },
         is_observed: args.observe,
+        watched_sources: args.watch.clone(),
         lose_device_after: args.lose_device_after,
         config_folder: viewer::config_folder(),
     };

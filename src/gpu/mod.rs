@@ -14,6 +14,8 @@ mod physical;
 mod pipeline;
 mod pipeline_cache;
 mod recorder;
+#[cfg(debug_assertions)]
+mod shader_compiler;
 pub mod shaders;
 mod surface;
 mod timer;
@@ -32,6 +34,8 @@ pub use messages::{Message, Messages};
 pub use physical::{DeviceDescription, DeviceKind, choose};
 pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
 pub use recorder::Recorder;
+#[cfg(debug_assertions)]
+pub(crate) use shader_compiler::compile;
 pub use shaders::Shader;
 pub use surface::{Surface, SurfaceTarget};
 pub use timer::Timer;

@@ -128,7 +128,7 @@ fn compile(
     let name = description.shader.name;
     let code = description.shader.words();
     let info = vk::ShaderModuleCreateInfo::default().code(&code);
-    // SAFETY: the code is SPIR-V from build.rs.
+    // SAFETY: the code is what the shader compiler made of a kernel with these bindings and constants.
     let module = unsafe { device.raw.create_shader_module(&info, None) }
         .map_err(GpuError::call(|| format!("load the code of kernel '{name}'")))?;
     device.set_name(module, name);

@@ -1,11 +1,14 @@
 //! The SPIR-V that build.rs compiled, one constant a kernel: `glsl/probe/layout.comp` is [`PROBE_LAYOUT`].
 
+use std::borrow::Cow;
+
 /// A kernel's code.
+#[derive(Clone)]
 pub struct Shader {
     /// File name under `glsl/` without its ending, folders joined by `_`.
     pub name: &'static str,
     /// SPIR-V, little-endian words.
-    pub spirv: &'static [u8],
+    pub spirv: Cow<'static, [u8]>,
 }
 
 impl Shader {

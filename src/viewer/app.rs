@@ -26,6 +26,8 @@ pub struct Options {
     pub validation: Validation,
     /// Prints a line of JSON for every frame that differs from the last.
     pub is_observed: bool,
+    /// Sources of the kernel, compiled anew when they change; in debug builds only.
+    pub watched_sources: Option<PathBuf>,
     /// Acts as if the device was lost after so many frames.
     pub lose_device_after: Option<u64>,
     /// Where preferences and unsaved work are kept.
@@ -36,7 +38,8 @@ pub struct Options {
 #[derive(Debug, thiserror::Error)]
 pub enum ViewerError {
     #[error(
-        "no window can be opened here ({0}); without a display, draw into a file: zerkalo render SCENE --output OUT.png"
+        "no window can be opened here ({}); without a display, draw into a file: zerkalo render SCENE --output OUT.png",
+        without_place(.0)
     )]
     NoDisplay(EventLoopError),
     #[error("could not open the window: {0}")]
@@ -47,11 +50,17 @@ pub enum ViewerError {
     Events(EventLoopError),
 }
 
+/// The reason alone: winit puts a line of its own source before it.
+fn without_place(error: &EventLoopError) -> String {
+    let text = error.to_string();
+    text.rsplit_once(": ").map_or(text.as_str(), |(_, reason)| reason).trim_end_matches('.').to_owned()
+}
+
 /// What other threads wake the window for.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Wake {
-    /// The accurate picture has come on.
-    Reference,
+    /// The accurate picture has come on, or a kernel was compiled.
+    News,
     /// The program is to end.
     Stop,
 }
@@ -162,11 +171,11 @@ impl ApplicationHandler<Wake> for App {
 
     fn user_event(&mut self, event_loop: &ActiveEventLoop, event: Wake) {
         match (event, &mut self.stage) {
-            (Wake::Reference, Stage::Open(session)) => {
+            (Wake::News, Stage::Open(session)) => {
                 session.wake();
                 session.window().request_redraw();
             }
-            (Wake::Reference, Stage::Waiting(_)) => {}
+            (Wake::News, Stage::Waiting(_)) => {}
             (Wake::Stop, _) => event_loop.exit(),
         }
     }

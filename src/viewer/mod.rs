@@ -24,6 +24,8 @@ pub mod recovery_file;
 mod reference_worker;
 mod screen;
 mod session;
+#[cfg(debug_assertions)]
+mod shader_watch;
 pub mod state;
 mod swapchain;
 mod swapchain_choices;

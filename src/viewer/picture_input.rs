@@ -15,7 +15,6 @@ const CLICK_SLACK: f64 = 4.0;
 /// What the buttons and keys held over the picture do.
 #[derive(Debug, Default)]
 pub struct PictureInput {
-    /// Pixels from the window's top left corner.
     cursor: DVec2,
     gesture: Option<Gesture>,
     keys: HashSet<KeyCode>,
@@ -53,6 +52,11 @@ impl Gesture {
 }
 
 impl PictureInput {
+    /// Pixels from the window's top left corner.
+    pub fn cursor(&self) -> DVec2 {
+        self.cursor
+    }
+
     /// A button goes down over the picture.
     pub fn press(&mut self, button: MouseButton) {
         if self.gesture.is_none() {

@@ -21,9 +21,11 @@ use super::picture_input::PictureInput;
 use super::recovery::Recovery;
 use super::reference_worker::ReferenceWorker;
 use super::screen::{Screen, ScreenError};
+#[cfg(debug_assertions)]
+use super::shader_watch::ShaderWatch;
 use super::state::State;
 use super::{camera_motion, pick};
-use crate::gpu::{Messages, SurfaceTarget, shaders};
+use crate::gpu::{Messages, Shader, SurfaceTarget, shaders};
 use crate::scene::Scene;
 
 /// Pixels of a touchpad that count as one notch of a wheel.
@@ -45,7 +47,11 @@ pub(super) struct Session {
     /// When the widgets are to be drawn again.
     widgets_due: Option<Instant>,
     refusal: Option<String>,
+    /// The kernel that draws.
+    shader: Shader,
     shader_error: Option<String>,
+    #[cfg(debug_assertions)]
+    shader_watch: Option<ShaderWatch>,
     reference: Reference,
     screenshots: Vec<PathBuf>,
     observer: Option<Observer>,
@@ -99,7 +105,7 @@ impl Session {
         options: Options,
         proxy: EventLoopProxy<Wake>,
     ) -> Result<Self, ScreenError> {
-        let screen = open_screen(&window, &state, &options)?;
+        let screen = open_screen(&window, &state, &options, &shaders::COURSE)?;
         let (context, egui) = new_egui(&window, options.is_observed);
         Ok(Self {
             messages: screen.messages(),
@@ -112,7 +118,10 @@ impl Session {
             frame_times: FrameTimes::default(),
             widgets_due: Some(Instant::now()),
             refusal: None,
+            shader: shaders::COURSE,
             shader_error: None,
+            #[cfg(debug_assertions)]
+            shader_watch: watch(&options, &proxy),
             reference: Reference::default(),
             screenshots: Vec::new(),
             observer: options.is_observed.then(Observer::default),
@@ -154,7 +163,7 @@ impl Session {
     }
 
     fn on_picture_event(&mut self, event: &WindowEvent) -> bool {
-        let is_over_picture = self.state.dialog.is_none() && !self.context.is_pointer_over_egui();
+        let is_over_picture = self.is_over_picture();
         match event {
             WindowEvent::Resized(_) => {
                 if let Some(screen) = &mut self.screen {
@@ -218,6 +227,17 @@ impl Session {
         }
     }
 
+    /// Whether the cursor is over the picture, with nothing upon it. By the cursor as it is now: what egui says of the
+    /// pointer is of the last frame.
+    fn is_over_picture(&self) -> bool {
+        let cursor = self.input.cursor() / f64::from(self.context.pixels_per_point());
+        let cursor = egui::pos2(cursor.x as f32, cursor.y as f32);
+        let layer = self.context.layer_id_at(cursor);
+        self.state.dialog.is_none()
+            && self.picture.contains(cursor)
+            && layer.is_none_or(|layer| layer.order == egui::Order::Background)
+    }
+
     /// What the mouse goes around: the selected primitive, or what is seen in the picture's centre, or else the origin.
     fn pivot(&self) -> DVec3 {
         let document = &self.state.document;
@@ -277,10 +297,19 @@ impl Session {
     }
 }
 
-fn open_screen(window: &Arc<Window>, state: &State, options: &Options) -> Result<Screen, ScreenError> {
+fn open_screen(window: &Arc<Window>, state: &State, options: &Options, shader: &Shader) -> Result<Screen, ScreenError> {
     let target: Arc<dyn SurfaceTarget> = window.clone();
     let waits_for_display = state.preferences.waits_for_display;
-    Screen::new(target, options.device.as_deref(), options.validation, &shaders::COURSE, waits_for_display)
+    Screen::new(target, options.device.as_deref(), options.validation, shader, waits_for_display)
+}
+
+#[cfg(debug_assertions)]
+fn watch(options: &Options, proxy: &EventLoopProxy<Wake>) -> Option<ShaderWatch> {
+    let (sources, proxy) = (options.watched_sources.clone()?, proxy.clone());
+    Some(ShaderWatch::start(sources, move || {
+        // A loop that has ended needs no waking.
+        let _ = proxy.send_event(Wake::News);
+    }))
 }
 
 /// `is_observed`: with a tree of the widgets.

@@ -33,7 +33,7 @@ impl Session {
                 self.losses = Losses { count: self.losses.count + 1, is_fresh: true };
                 // The window cannot serve two.
                 self.screen = None;
-                self.screen = Some(open_screen(&self.window, &self.state, &self.options)?);
+                self.screen = Some(open_screen(&self.window, &self.state, &self.options, &self.shader)?);
                 // The new device has none of the textures that the old context has told of.
                 (self.context, self.egui) = new_egui(&self.window, self.options.is_observed);
                 self.reference = Reference::default();
@@ -85,14 +85,21 @@ impl Session {
 
     fn show(&mut self) -> Result<(), ScreenError> {
         self.widgets_due = None;
+        let is_whole_before = self.is_whole();
         self.fly();
         let (mut widgets, observation, repaint_delay) = self.run_widgets();
         self.widgets_due = Instant::now().checked_add(repaint_delay);
+        #[cfg(debug_assertions)]
+        self.take_kernel();
         self.ask_for_picture()?;
         self.present(&mut widgets)?;
         self.take_screenshots()?;
         self.note_change();
         self.observe(observation);
+        if self.is_whole() != is_whole_before {
+            // The widgets have told of what was.
+            self.wake();
+        }
         Ok(())
     }
 
@@ -184,6 +191,21 @@ impl Session {
         shown
     }
 
+    /// A kernel compiled meanwhile takes the last one's place; a broken one is told of, and the last good one goes on.
+    #[cfg(debug_assertions)]
+    fn take_kernel(&mut self) {
+        let Some(build) = self.shader_watch.as_ref().and_then(|watch| watch.take()) else { return };
+        let Some(screen) = &mut self.screen else { return };
+        let replaced = build.and_then(|shader| {
+            screen.canvas.replace_shader(&shader).map_err(|error| error.to_string())?;
+            self.shader = shader;
+            Ok(())
+        });
+        self.shader_error = replaced.err();
+        // The widgets of this frame are drawn already.
+        self.wake();
+    }
+
     /// Has the picture of the scene as it is now traced, if it is not yet.
     fn ask_for_picture(&mut self) -> Result<(), ScreenError> {
         let (_, size) = self.picture_pixels();
@@ -227,7 +249,7 @@ impl Session {
             let proxy = self.proxy.clone();
             let wake = move || {
                 // A loop that has ended needs no waking.
-                let _ = proxy.send_event(Wake::Reference);
+                let _ = proxy.send_event(Wake::News);
             };
             *worker = Some(ReferenceWorker::start(scene.clone(), size, wake));
         }
