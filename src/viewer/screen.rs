@@ -138,17 +138,21 @@ impl Screen {
         Ok(self.in_flight.submit(Semaphores::default(), |recorder| canvas.record(recorder, place))?)
     }
 
-    /// Traces a chunk, if there is one, and shows picture and widgets. The picture's corner is at `corner`, pixels.
-    /// [`Screen::prepare`] must have said that there is something to be seen.
-    pub fn show(&mut self, widgets: &mut Widgets, background: [f32; 4], corner: [u32; 2]) -> Result<(), ScreenError> {
-        let (Some(swapchain), Some(painter)) = (&mut self.swapchain, &mut self.painter) else { return Ok(()) };
+    /// Traces a chunk, if there is one, and shows picture and widgets; `false` where the window had no image for them.
+    /// The picture's corner is at `corner`, pixels. [`Screen::prepare`] must have said that there is something to be
+    /// seen.
+    pub fn show(&mut self, widgets: &mut Widgets, background: [f32; 4], corner: [u32; 2]) -> Result<bool, ScreenError> {
+        let (Some(swapchain), Some(painter)) = (&mut self.swapchain, &mut self.painter) else { return Ok(false) };
         painter.take_textures(&self.device, &mut self.in_flight, &mut widgets.textures)?;
         let place = self.in_flight.wait_for_place()?;
         self.canvas.collect(place)?;
 
         let image = match swapchain.acquire()? {
             Ok(image) => image,
-            Err(fit) => return self.mend(fit),
+            Err(fit) => {
+                self.mend(fit)?;
+                return Ok(false);
+            }
         };
         let mut failed = None;
         let extent = swapchain.extent();
@@ -161,7 +165,7 @@ impl Screen {
         })?;
         let fit = swapchain.present(image)?;
         self.mend(fit)?;
-        failed.map_or(Ok(()), |error| Err(error.into()))
+        failed.map_or(Ok(true), |error| Err(error.into()))
     }
 
     fn mend(&mut self, fit: Fit) -> Result<(), ScreenError> {

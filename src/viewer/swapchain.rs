@@ -143,13 +143,14 @@ impl Swapchain {
         self.extent
     }
 
-    /// Asks for the next image; `Err(Fit)` inside when there is none to be had from this swapchain.
+    /// Asks for the next image; `Err(Fit)` inside when there is none to be had from this swapchain, or none yet.
     ///
     /// The submission before the last must have ended: its semaphore is used again.
     pub fn acquire(&mut self) -> Result<Result<Acquired, Fit>, GpuError> {
         let semaphore = self.acquired[self.next_acquired];
         // SAFETY: the semaphore is unsignalled, as its last wait has ended.
-        let acquired = unsafe { self.functions.acquire_next_image(self.raw, u64::MAX, semaphore, vk::Fence::null()) };
+        let acquired =
+            unsafe { self.functions.acquire_next_image(self.raw, PATIENCE_NS, semaphore, vk::Fence::null()) };
         match acquired {
             // A suboptimal image is shown all the same; showing it says so again.
             Ok((index, _)) => {
@@ -284,6 +285,9 @@ impl Drop for Swapchain {
     }
 }
 
+/// A window that is not seen may get no image for as long as it is not; its events must still be answered.
+const PATIENCE_NS: u64 = 50_000_000;
+
 const ACQUIRE: &str = "get a window image";
 
 const IMAGE_USE: vk::ImageUsageFlags = vk::ImageUsageFlags::from_raw(
@@ -302,6 +306,7 @@ fn unfit(result: vk::Result) -> Option<Fit> {
     match result {
         vk::Result::ERROR_OUT_OF_DATE_KHR => Some(Fit::Outdated),
         vk::Result::ERROR_SURFACE_LOST_KHR => Some(Fit::SurfaceLost),
+        vk::Result::TIMEOUT | vk::Result::NOT_READY => Some(Fit::Good),
         _ => None,
     }
 }

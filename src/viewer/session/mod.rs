@@ -56,11 +56,15 @@ pub(super) struct Session {
     screenshots: Vec<PathBuf>,
     observer: Option<Observer>,
     last_frame: Instant,
+    /// Whether the keys were flying in the last frame.
+    is_flying: bool,
     recovery: Recovery,
     losses: Losses,
     latency: Latency,
     pictures_traced: u64,
     frames: u64,
+    /// Nothing of the window is to be seen.
+    is_occluded: bool,
     is_quitting: bool,
     proxy: EventLoopProxy<Wake>,
     window: Arc<Window>,
@@ -126,11 +130,13 @@ impl Session {
             screenshots: Vec::new(),
             observer: options.is_observed.then(Observer::default),
             last_frame: Instant::now(),
+            is_flying: false,
             recovery: Recovery::new(options.config_folder.clone()),
             losses: Losses::default(),
             latency: Latency::default(),
             pictures_traced: 0,
             frames: 0,
+            is_occluded: false,
             is_quitting: false,
             proxy,
             options,
@@ -169,6 +175,10 @@ impl Session {
                 if let Some(screen) = &mut self.screen {
                     screen.set_outdated(self.state.preferences.waits_for_display);
                 }
+                true
+            }
+            WindowEvent::Occluded(is_occluded) => {
+                self.is_occluded = *is_occluded;
                 true
             }
             WindowEvent::Focused(false) => {

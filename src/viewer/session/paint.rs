@@ -69,7 +69,7 @@ impl Session {
         let is_worth_a_look = |screen: &Screen| {
             screen.canvas.is_growing() && self.last_frame.elapsed() >= GROWING_PERIOD || !screen.canvas.is_tracing()
         };
-        !is_due && !self.screen.as_ref().is_none_or(is_worth_a_look)
+        self.is_occluded || !is_due && !self.screen.as_ref().is_none_or(is_worth_a_look)
     }
 
     fn trace(&mut self) -> Result<(), ScreenError> {
@@ -120,11 +120,14 @@ impl Session {
     /// Moves the camera by the keys held.
     fn fly(&mut self) {
         let now = Instant::now();
-        let step = (now - std::mem::replace(&mut self.last_frame, now)).min(LONGEST_STEP);
-        if let Some(flight) = self.input.flight() {
-            let speed = self.state.preferences.fly_speed;
+        let last_frame = std::mem::replace(&mut self.last_frame, now);
+        let flight = self.input.flight();
+        // The first frame of a flight begins it: what was before it was no flight.
+        if let Some(flight) = flight.filter(|_| std::mem::replace(&mut self.is_flying, true)) {
+            let (step, speed) = ((now - last_frame).min(LONGEST_STEP), self.state.preferences.fly_speed);
             camera_motion::fly(self.state.document.camera_mut(), flight, step.as_secs_f64(), speed);
         }
+        self.is_flying = flight.is_some();
     }
 
     /// Draws the widgets and does what they ask; returns with them when they want to be drawn again.
@@ -266,8 +269,8 @@ impl Session {
         let (corner, _) = self.picture_pixels();
         let is_whole_before = self.is_whole();
         let Some(screen) = &mut self.screen else { return Ok(()) };
-        screen.show(widgets, BACKGROUND, corner)?;
-        if self.take_times() {
+        let is_shown = screen.show(widgets, BACKGROUND, corner)?;
+        if self.take_times() || !is_shown {
             self.wake();
         }
         let input_at = self.latency.input_at.take();
@@ -372,7 +375,8 @@ impl Session {
             return NextFrame::AtOnce;
         }
         let recovery = self.recovery.due(&self.state.document).filter(|_| !self.is_recovering());
-        match self.widgets_due.into_iter().chain(recovery).min() {
+        let widgets_due = self.widgets_due.filter(|_| !self.is_occluded);
+        match widgets_due.into_iter().chain(recovery).min() {
             Some(due) if due <= Instant::now() => NextFrame::AtOnce,
             Some(due) => NextFrame::At(due),
             None => NextFrame::Whenever,
