@@ -13,13 +13,13 @@ use crate::gpu::{
 };
 use crate::scene::{DEPTH_LIMIT, Scene};
 
-/// Pictures that take longer are seen while they come into being.
-const LONG_NS: f64 = 250e6;
+/// Pictures that take longer are seen while they come into being; shorter ones only whole, lest a moving one fall apart.
+const LONG_NS: f64 = 500e6;
 
 /// The course kernel's picture of a changing scene, on submissions of an [`InFlight`].
 ///
 /// A picture is of one state of the scene: what changes meanwhile is for the next. Two images take turns, one shown
-/// and one traced; only where a picture takes longer than a quarter of a second is the shown one traced in place, and
+/// and one traced; only where a picture takes longer than half a second is the shown one traced in place, and
 /// taken up anew at every change.
 pub struct Canvas {
     kernel: CourseKernel,

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use egui::epaint::textures::TexturesDelta;
+use egui::epaint::ImageDelta;
 use egui::{ClippedPrimitive, TextureId};
 use egui_ash_renderer::allocator::GpuAllocator;
 use egui_ash_renderer::{Options, RenderMode, Renderer, RendererError};
@@ -41,7 +41,9 @@ impl ScreenError {
 
 /// The widgets of one frame, ready to be drawn.
 pub struct Widgets {
-    pub textures: TexturesDelta,
+    /// New and changed ones.
+    pub textures: Vec<(TextureId, ImageDelta)>,
+    pub freed_textures: Vec<TextureId>,
     pub primitives: Vec<ClippedPrimitive>,
     pub pixels_per_point: f32,
 }
@@ -143,7 +145,7 @@ impl Screen {
     /// seen.
     pub fn show(&mut self, widgets: &mut Widgets, background: [f32; 4], corner: [u32; 2]) -> Result<bool, ScreenError> {
         let (Some(swapchain), Some(painter)) = (&mut self.swapchain, &mut self.painter) else { return Ok(false) };
-        painter.take_textures(&self.device, &mut self.in_flight, &mut widgets.textures)?;
+        painter.take_textures(&self.device, &mut self.in_flight, widgets)?;
         let place = self.in_flight.wait_for_place()?;
         self.canvas.collect(place)?;
 
@@ -209,20 +211,18 @@ impl Painter {
         &mut self,
         device: &Device,
         in_flight: &mut InFlight,
-        textures: &mut TexturesDelta,
+        widgets: &mut Widgets,
     ) -> Result<(), ScreenError> {
-        let textures = std::mem::take(textures);
-        if textures.is_empty() && self.freed.is_empty() {
+        let (textures, freed) = (std::mem::take(&mut widgets.textures), std::mem::take(&mut widgets.freed_textures));
+        if textures.is_empty() && freed.is_empty() && self.freed.is_empty() {
             return Ok(());
         }
         let pool = in_flight.idle_pool()?;
-        for id in std::mem::replace(&mut self.freed, textures.free.iter().copied().collect()) {
+        for id in std::mem::replace(&mut self.freed, freed) {
             self.renderer.free_texture(id)?;
         }
-        for (id, deltas) in &textures.set {
-            for delta in deltas {
-                self.renderer.set_texture(device.queue, pool, *id, delta)?;
-            }
+        for (id, delta) in textures {
+            self.renderer.set_texture(device.queue, pool, id, &delta)?;
         }
         Ok(())
     }

@@ -162,8 +162,12 @@ impl Session {
         let delay = viewport.map_or(Duration::MAX, |viewport| viewport.repaint_delay);
         let delay = if is_asked { Duration::ZERO } else { delay };
         let primitives = context.tessellate(std::mem::take(&mut output.shapes), pixels_per_point);
-        let textures = std::mem::take(&mut output.textures_delta);
-        (Widgets { textures, primitives, pixels_per_point }, observation, delay)
+        // Emptied at once: a delta dropped with something in it, as by an error on the way, panics in debug builds.
+        let (textures, freed) = (&mut output.textures_delta.set, &mut output.textures_delta.free);
+        let textures = textures.drain().flat_map(|(id, deltas)| deltas.into_iter().map(move |delta| (id, delta)));
+        let textures = textures.collect();
+        let freed_textures = freed.drain().collect();
+        (Widgets { textures, freed_textures, primitives, pixels_per_point }, observation, delay)
     }
 
     fn show_panel(&mut self, ui: &mut egui::Ui) -> Shown {
