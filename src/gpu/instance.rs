@@ -39,18 +39,26 @@ impl Instance {
     /// # Errors
     /// No loader, no driver, a loader older than 1.2, or validation asked for without its layer.
     pub fn new(validation: Validation) -> Result<Arc<Self>, GpuError> {
-        Self::with_extensions(validation, &[])
+        Self::with_extensions(validation, &[], Messages::default())
     }
 
-    /// An instance that can show pictures in windows like `target`.
-    pub fn for_window(validation: Validation, target: &dyn SurfaceTarget) -> Result<Arc<Self>, GpuError> {
+    /// An instance that can show pictures in windows like `target`; it adds to `messages`.
+    pub fn for_window(
+        validation: Validation,
+        target: &dyn SurfaceTarget,
+        messages: &Messages,
+    ) -> Result<Arc<Self>, GpuError> {
         let display = target.display_handle().map_err(|error| GpuError::NoWindow(error.to_string()))?;
         let extensions = ash_window::enumerate_required_extensions(display.as_raw())
             .map_err(GpuError::call(|| "find out how this platform shows pictures in windows"))?;
-        Self::with_extensions(validation, extensions)
+        Self::with_extensions(validation, extensions, messages.clone())
     }
 
-    fn with_extensions(validation: Validation, extensions: &[*const c_char]) -> Result<Arc<Self>, GpuError> {
+    fn with_extensions(
+        validation: Validation,
+        extensions: &[*const c_char],
+        messages: Messages,
+    ) -> Result<Arc<Self>, GpuError> {
         // SAFETY: the loader library's initialisers are trusted like any system library's.
         let entry = unsafe { ash::Entry::load() }.map_err(GpuError::NoLoader)?;
         check_loader_version(&entry)?;
@@ -59,7 +67,6 @@ impl Instance {
             check_validation(&entry, has_debug_utils)?;
         }
 
-        let messages = Messages::default();
         let raw = create(&entry, validation, has_debug_utils, extensions, &messages)?;
         let mut instance = Self { raw, messages, has_debug_utils, messenger: None, entry };
         if validation != Validation::Off {

@@ -86,15 +86,18 @@ pub fn run(document: Document, options: Options, on_start: impl FnOnce(Stopper))
     let state = State::new(document, remembered.unwrap_or_default(), recovered);
     let proxy = event_loop.create_proxy();
     on_start(Stopper(proxy.clone()));
+    let messages = Messages::default();
+    let of_session = messages.clone();
     let mut app = App {
         stage: Stage::Waiting(Some(Box::new(state))),
-        make_session: Box::new(move |window, state| Session::new(window, state, options.clone(), proxy.clone())),
-        messages: Messages::default(),
+        make_session: Box::new(move |window, state| {
+            Session::new(window, state, options.clone(), of_session.clone(), proxy.clone())
+        }),
         failure: None,
     };
     event_loop.run_app(&mut app).map_err(ViewerError::Events)?;
     // The session's device is destroyed before its messages are counted: the layers check that too.
-    let App { stage, messages, failure, .. } = app;
+    let App { stage, failure, .. } = app;
     drop(stage);
     failure.map_or(Ok(messages), Err)
 }
@@ -102,7 +105,6 @@ pub fn run(document: Document, options: Options, on_start: impl FnOnce(Stopper))
 struct App {
     stage: Stage,
     make_session: Box<dyn Fn(Arc<Window>, State) -> Result<Session, ScreenError>>,
-    messages: Messages,
     failure: Option<ViewerError>,
 }
 
@@ -123,7 +125,6 @@ impl App {
                     Window::default_attributes().with_title("zerkalo").with_inner_size(LogicalSize::new(width, height));
                 let window = Arc::new(event_loop.create_window(attributes)?);
                 let session = (self.make_session)(window, *state)?;
-                self.messages = session.messages();
                 session.window().request_redraw();
                 self.stage = Stage::Open(Box::new(session));
             }

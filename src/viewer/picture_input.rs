@@ -25,27 +25,17 @@ pub struct PictureInput {
 enum Gesture {
     /// The right button: the mouse turns the view, the keys fly.
     Look,
-    /// The middle button, or Alt with the left.
-    Orbit,
+    /// The middle button, or Alt with the left: around this point, which stays the same however the view changes.
+    Orbit(DVec3),
     /// The left button, where it was pressed.
     Click(DVec2),
 }
 
 impl Gesture {
-    fn of(button: MouseButton, is_alt_held: bool, cursor: DVec2) -> Option<Self> {
-        match button {
-            MouseButton::Right => Some(Self::Look),
-            MouseButton::Middle => Some(Self::Orbit),
-            MouseButton::Left if is_alt_held => Some(Self::Orbit),
-            MouseButton::Left => Some(Self::Click(cursor)),
-            _ => None,
-        }
-    }
-
     fn ends_with(self, button: MouseButton) -> bool {
         match self {
             Self::Look => button == MouseButton::Right,
-            Self::Orbit => matches!(button, MouseButton::Middle | MouseButton::Left),
+            Self::Orbit(_) => matches!(button, MouseButton::Middle | MouseButton::Left),
             Self::Click(_) => button == MouseButton::Left,
         }
     }
@@ -57,10 +47,16 @@ impl PictureInput {
         self.cursor
     }
 
-    /// A button goes down over the picture.
-    pub fn press(&mut self, button: MouseButton) {
+    /// A button goes down over the picture; `pivot` is what there is to go around.
+    pub fn press(&mut self, button: MouseButton, pivot: DVec3) {
         if self.gesture.is_none() {
-            self.gesture = Gesture::of(button, self.is_alt_held, self.cursor);
+            self.gesture = match button {
+                MouseButton::Right => Some(Gesture::Look),
+                MouseButton::Middle => Some(Gesture::Orbit(pivot)),
+                MouseButton::Left if self.is_alt_held => Some(Gesture::Orbit(pivot)),
+                MouseButton::Left => Some(Gesture::Click(self.cursor)),
+                _ => None,
+            };
         }
     }
 
@@ -69,16 +65,16 @@ impl PictureInput {
         let gesture = self.gesture.take_if(|gesture| gesture.ends_with(button))?;
         match gesture {
             Gesture::Click(from) => (from.distance(self.cursor) <= CLICK_SLACK).then_some(from),
-            Gesture::Look | Gesture::Orbit => None,
+            Gesture::Look | Gesture::Orbit(_) => None,
         }
     }
 
-    /// The cursor moves, anywhere; around `pivot` if it goes around.
-    pub fn move_to(&mut self, cursor: DVec2, camera: &mut Camera, pivot: DVec3, is_inverted: bool) {
+    /// The cursor moves, anywhere.
+    pub fn move_to(&mut self, cursor: DVec2, camera: &mut Camera, is_inverted: bool) {
         let pixels = cursor - std::mem::replace(&mut self.cursor, cursor);
         match self.gesture {
             Some(Gesture::Look) => camera_motion::look(camera, pixels, is_inverted),
-            Some(Gesture::Orbit) => camera_motion::orbit(camera, pivot, pixels),
+            Some(Gesture::Orbit(pivot)) => camera_motion::orbit(camera, pivot, pixels),
             Some(Gesture::Click(_)) | None => {}
         }
     }
@@ -123,7 +119,7 @@ mod tests {
     use super::*;
 
     fn moved(input: &mut PictureInput, camera: &mut Camera, x: f64, y: f64) {
-        input.move_to(DVec2::new(x, y), camera, DVec3::ZERO, false);
+        input.move_to(DVec2::new(x, y), camera, false);
     }
 
     #[test]
@@ -131,7 +127,7 @@ mod tests {
         let (mut input, mut camera) = (PictureInput::default(), Camera::default());
         moved(&mut input, &mut camera, 50.0, 50.0);
         assert_eq!(camera, Camera::default());
-        input.press(MouseButton::Right);
+        input.press(MouseButton::Right, DVec3::ZERO);
         moved(&mut input, &mut camera, 150.0, 50.0);
         let turned = camera.direction.angle_between(DVec3::Z);
         assert!((turned - 0.1).abs() < 1e-9, "100 pixels at 0.001 rad: {turned}");
@@ -146,7 +142,7 @@ mod tests {
         let mut input = PictureInput::default();
         input.key(KeyCode::KeyW, true);
         assert_eq!(input.flight(), None);
-        input.press(MouseButton::Right);
+        input.press(MouseButton::Right, DVec3::ZERO);
         assert_eq!(input.flight(), Some(Flight { ahead: 1.0, ..Flight::default() }));
         input.key(KeyCode::KeyS, true);
         assert_eq!(input.flight(), None, "both ways at once");
@@ -159,10 +155,10 @@ mod tests {
     fn a_click_is_a_press_and_a_release_at_one_place() {
         let (mut input, mut camera) = (PictureInput::default(), Camera::default());
         moved(&mut input, &mut camera, 10.0, 20.0);
-        input.press(MouseButton::Left);
+        input.press(MouseButton::Left, DVec3::ZERO);
         moved(&mut input, &mut camera, 12.0, 21.0);
         assert_eq!(input.release(MouseButton::Left), Some(DVec2::new(10.0, 20.0)));
-        input.press(MouseButton::Left);
+        input.press(MouseButton::Left, DVec3::ZERO);
         moved(&mut input, &mut camera, 60.0, 20.0);
         assert_eq!(input.release(MouseButton::Left), None, "a drag");
         assert_eq!(input.release(MouseButton::Left), None, "pressed elsewhere");
@@ -173,7 +169,7 @@ mod tests {
         for (button, is_alt_held) in [(MouseButton::Middle, false), (MouseButton::Left, true)] {
             let (mut input, mut camera) = (PictureInput::default(), Camera::default());
             input.set_alt_held(is_alt_held);
-            input.press(button);
+            input.press(button, DVec3::ZERO);
             moved(&mut input, &mut camera, 30.0, 0.0);
             assert_ne!(camera.position, Camera::default().position);
             assert!((camera.position.length() - 2.0).abs() < 1e-9, "at the same distance from the pivot");

@@ -8,9 +8,7 @@ use egui_ash_renderer::allocator::GpuAllocator;
 use egui_ash_renderer::{Options, RenderMode, Renderer, RendererError};
 
 use super::swapchain::{Fit, Swapchain};
-use crate::gpu::{
-    Device, GpuError, InFlight, Instance, Messages, Semaphores, Shader, Surface, SurfaceTarget, Validation,
-};
+use crate::gpu::{Device, GpuError, InFlight, Instance, Semaphores, Shader, Surface, SurfaceTarget};
 use crate::tracer::{Canvas, TracerError};
 
 /// Why the window cannot go on.
@@ -73,14 +71,13 @@ struct Painter {
 impl Screen {
     /// On the device `wanted`, or the best one that can show pictures in the window `target`.
     pub fn new(
+        instance: &Arc<Instance>,
         target: Arc<dyn SurfaceTarget>,
         wanted: Option<&str>,
-        validation: Validation,
         shader: &Shader,
         waits_for_display: bool,
     ) -> Result<Self, ScreenError> {
-        let instance = Instance::for_window(validation, &*target)?;
-        let surface = Arc::new(Surface::new(&instance, &target)?);
+        let surface = Arc::new(Surface::new(instance, &target)?);
         let device = Device::open_for(&surface, wanted)?;
         Ok(Self {
             canvas: Canvas::new(&device, shader, [1, 1])?,
@@ -97,10 +94,6 @@ impl Screen {
 
     pub fn device(&self) -> &Device {
         &self.device
-    }
-
-    pub fn messages(&self) -> Messages {
-        self.device.messages().clone()
     }
 
     /// Before the next frame the swapchain is made anew: the window has another size, or shows pictures otherwise.

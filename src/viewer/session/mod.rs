@@ -25,7 +25,7 @@ use super::screen::{Screen, ScreenError};
 use super::shader_watch::ShaderWatch;
 use super::state::State;
 use super::{camera_motion, pick};
-use crate::gpu::{Messages, Shader, SurfaceTarget, shaders};
+use crate::gpu::{Instance, Messages, Shader, SurfaceTarget, shaders};
 use crate::scene::Scene;
 
 /// Pixels of a touchpad that count as one notch of a wheel.
@@ -41,6 +41,7 @@ pub(super) struct Session {
     egui: egui_winit::State,
     /// `None` only while a lost device is being replaced.
     screen: Option<Screen>,
+    /// Of every device that was.
     messages: Messages,
     picture: egui::Rect,
     frame_times: FrameTimes,
@@ -107,12 +108,13 @@ impl Session {
         window: Arc<Window>,
         state: State,
         options: Options,
+        messages: Messages,
         proxy: EventLoopProxy<Wake>,
     ) -> Result<Self, ScreenError> {
-        let screen = open_screen(&window, &state, &options, &shaders::COURSE)?;
+        let screen = open_screen(&window, &state, &options, &shaders::COURSE, &messages)?;
         let (context, egui) = new_egui(&window, options.is_observed);
         Ok(Self {
-            messages: screen.messages(),
+            messages,
             screen: Some(screen),
             panel: Panel::default(),
             input: PictureInput::default(),
@@ -149,11 +151,6 @@ impl Session {
         &self.window
     }
 
-    /// What the validation layer says, also after the session's end.
-    pub fn messages(&self) -> Messages {
-        self.messages.clone()
-    }
-
     // ---- Events.
 
     /// Takes in what happens to the window; whether a frame is to follow.
@@ -186,17 +183,17 @@ impl Session {
                 true
             }
             WindowEvent::CursorMoved { position, .. } => {
-                let pivot = self.pivot();
                 let is_inverted = self.state.preferences.is_mouse_inverted;
                 let camera = self.state.document.camera_mut();
-                self.input.move_to(DVec2::new(position.x, position.y), camera, pivot, is_inverted);
+                self.input.move_to(DVec2::new(position.x, position.y), camera, is_inverted);
                 self.input.is_busy()
             }
             WindowEvent::MouseInput { state: ElementState::Pressed, button, .. } if is_over_picture => {
                 // A field that was being filled in gives its value up.
                 self.context
                     .memory_mut(|memory| memory.focused().into_iter().for_each(|id| memory.surrender_focus(id)));
-                self.input.press(*button);
+                let pivot = self.pivot();
+                self.input.press(*button, pivot);
                 true
             }
             WindowEvent::MouseInput { state: ElementState::Released, button, .. } => {
@@ -307,10 +304,17 @@ impl Session {
     }
 }
 
-fn open_screen(window: &Arc<Window>, state: &State, options: &Options, shader: &Shader) -> Result<Screen, ScreenError> {
+fn open_screen(
+    window: &Arc<Window>,
+    state: &State,
+    options: &Options,
+    shader: &Shader,
+    messages: &Messages,
+) -> Result<Screen, ScreenError> {
     let target: Arc<dyn SurfaceTarget> = window.clone();
     let waits_for_display = state.preferences.waits_for_display;
-    Screen::new(target, options.device.as_deref(), options.validation, shader, waits_for_display)
+    let instance = Instance::for_window(options.validation, &*target, messages)?;
+    Screen::new(&instance, target, options.device.as_deref(), shader, waits_for_display)
 }
 
 #[cfg(debug_assertions)]

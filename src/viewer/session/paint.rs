@@ -33,7 +33,8 @@ impl Session {
                 self.losses = Losses { count: self.losses.count + 1, is_fresh: true };
                 // The window cannot serve two.
                 self.screen = None;
-                self.screen = Some(open_screen(&self.window, &self.state, &self.options, &self.shader)?);
+                self.screen =
+                    Some(open_screen(&self.window, &self.state, &self.options, &self.shader, &self.messages)?);
                 // The new device has none of the textures that the old context has told of.
                 (self.context, self.egui) = new_egui(&self.window, self.options.is_observed);
                 self.reference = Reference::default();
