@@ -101,7 +101,7 @@ impl Device {
     }
 
     /// For a renderer that allocates for itself; it must not outlive the device.
-    pub(crate) fn allocator(&self) -> &Arc<Mutex<Allocator>> {
+    pub(super) fn allocator(&self) -> &Arc<Mutex<Allocator>> {
         // invariant: `new` sets it before the device is shared, and only `drop` takes it.
         self.allocator.as_ref().expect("the allocator lives as long as the device")
     }

@@ -19,6 +19,7 @@ mod shader_compiler;
 pub mod shaders;
 mod surface;
 mod timer;
+mod widget_memory;
 
 use std::sync::Arc;
 
@@ -39,6 +40,7 @@ pub(crate) use shader_compiler::compile;
 pub use shaders::Shader;
 pub use surface::{Surface, SurfaceTarget};
 pub use timer::Timer;
+pub use widget_memory::WidgetMemory;
 
 /// Every device of the machine, usable or not, in the loader's order.
 pub fn devices() -> Result<Vec<DeviceDescription>, GpuError> {

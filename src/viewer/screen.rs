@@ -4,11 +4,10 @@ use std::sync::Arc;
 
 use egui::epaint::ImageDelta;
 use egui::{ClippedPrimitive, TextureId};
-use egui_ash_renderer::allocator::GpuAllocator;
 use egui_ash_renderer::{Options, RenderMode, Renderer, RendererError};
 
 use super::swapchain::{Fit, Swapchain};
-use crate::gpu::{Device, GpuError, InFlight, Instance, Semaphores, Shader, Surface, SurfaceTarget};
+use crate::gpu::{Device, GpuError, InFlight, Instance, Semaphores, Shader, Surface, SurfaceTarget, WidgetMemory};
 use crate::tracer::{Canvas, TracerError};
 
 /// Why the window cannot go on.
@@ -63,7 +62,7 @@ pub struct Screen {
 
 /// What draws the widgets into one swapchain's render pass.
 struct Painter {
-    renderer: Renderer<GpuAllocator>,
+    renderer: Renderer<WidgetMemory>,
     /// No longer used by new frames, but perhaps by one in flight.
     freed: Vec<TextureId>,
 }
@@ -116,8 +115,8 @@ impl Screen {
                 Some(painter) => painter.renderer.set_render_mode(render_mode)?,
                 None => {
                     let options = Options { in_flight_frames: InFlight::COUNT, ..Options::default() };
-                    let (allocator, device) = (self.device.allocator().clone(), self.device.raw.clone());
-                    let renderer = Renderer::with_gpu_allocator(allocator, device, render_mode, options)?;
+                    let memory = WidgetMemory::new(&self.device);
+                    let renderer = Renderer::with_allocator(memory, self.device.raw.clone(), render_mode, options)?;
                     self.painter = Some(Painter { renderer, freed: Vec::new() });
                 }
             }
