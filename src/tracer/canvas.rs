@@ -1,7 +1,7 @@
 //! A picture that is traced while others look at it: a chunk with each submission, anew when its scene changes.
 
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use super::TracerError;
 use super::chunks::{Pace, Sweep};
@@ -14,7 +14,7 @@ use crate::gpu::{
 use crate::scene::{DEPTH_LIMIT, Scene};
 
 /// Pictures that take longer are seen while they come into being; shorter ones only whole, lest a moving one fall apart.
-const LONG_NS: f64 = 500e6;
+const LONG: Duration = Duration::from_millis(500);
 
 /// The course kernel's picture of a changing scene, on submissions of an [`InFlight`].
 ///
@@ -37,6 +37,9 @@ pub struct Canvas {
     places: [Place; InFlight::COUNT],
     /// Pictures begun so far.
     begun: u64,
+    begun_at: Instant,
+    /// How long the last whole one took, all in all.
+    last_took: Option<Duration>,
     /// GPU time that the picture being traced has taken; `None` where the device has no timestamps.
     picture_ns: Option<u64>,
     finished_ns: Vec<u64>,
@@ -82,6 +85,8 @@ impl Canvas {
             pace: Pace::new(),
             places: [timer()?, timer()?],
             begun: 0,
+            begun_at: Instant::now(),
+            last_took: None,
             picture_ns: Some(0),
             finished_ns: Vec::new(),
             uploaded_bytes: 0,
@@ -128,6 +133,7 @@ impl Canvas {
     fn forget_scene(&mut self) {
         (self.current, self.next) = (None, None);
         self.is_in_place = true;
+        self.last_took = None;
         self.sweep = Sweep::new(self.kernel.groups(self.size));
         // What is still in flight is of no picture.
         self.begun += 1;
@@ -197,6 +203,7 @@ impl Canvas {
         if chunk.picture == self.begun {
             self.picture_ns = self.picture_ns.zip(time_ns).map(|(sum, time_ns)| sum + time_ns);
             if chunk.is_last {
+                self.last_took = Some(self.begun_at.elapsed());
                 self.finished_ns.extend(self.picture_ns);
             }
         }
@@ -212,7 +219,7 @@ impl Canvas {
         }
         let groups = self.pace.groups().min(self.sweep.left());
         let Some(scene) = self.current.as_ref().filter(|_| groups > 0) else { return Ok(()) };
-        if self.is_long() && !self.is_in_place {
+        if !self.is_in_place && self.begun_at.elapsed() > LONG {
             // Longer than expected: from here on it is seen.
             self.shown = 1 - self.shown;
             self.is_in_place = true;
@@ -243,18 +250,14 @@ impl Canvas {
         self.uploaded_bytes += self.kernel.update(recorder, &scene.primitives);
         self.current = Some(scene);
         self.begun += 1;
+        self.begun_at = Instant::now();
         self.picture_ns = Some(0);
         if self.sweep.left() > 0 {
             self.sweep.start_here();
         } else {
             self.sweep.start();
         }
-        self.is_in_place = self.is_long();
-    }
-
-    /// Whether a picture takes long, as far as is known.
-    fn is_long(&self) -> bool {
-        self.pace.expected_ns(self.sweep.total()).is_none_or(|time_ns| time_ns > LONG_NS)
+        self.is_in_place = self.last_took.is_none_or(|took| took > LONG);
     }
 
     fn clear(&mut self, recorder: &mut Recorder) {

@@ -83,6 +83,9 @@ impl Pace {
     /// The next rows may be dearer than the last: the pace rises no faster than this, and falls at once.
     const LARGEST_RISE: u64 = 4;
 
+    /// Of what a dear chunk tells about the next: rows differ tenfold, and after a cheap one comes a dear one again.
+    const MEMORY: f64 = 0.7;
+
     pub fn new() -> Self {
         Self { groups: Self::FIRST_GROUPS, ns_per_group: None }
     }
@@ -91,16 +94,12 @@ impl Pace {
         self.groups
     }
 
-    /// What so many workgroups would take; `None` before the first measurement.
-    pub fn expected_ns(&self, groups: u64) -> Option<f64> {
-        self.ns_per_group.map(|each| each * groups as f64)
-    }
-
     pub fn measured(&mut self, groups: u64, time_ns: u64) {
         if groups == 0 {
             return;
         }
-        let ns_per_group = (time_ns.max(1) as f64) / groups as f64;
+        let measured = (time_ns.max(1) as f64) / groups as f64;
+        let ns_per_group = self.ns_per_group.map_or(measured, |last| measured.max(last * Self::MEMORY));
         self.ns_per_group = Some(ns_per_group);
         let fitting = (Self::CHUNK_NS / ns_per_group) as u64;
         self.groups = fitting.clamp(1, (groups.max(Self::FIRST_GROUPS)) * Self::LARGEST_RISE);
@@ -177,7 +176,16 @@ mod tests {
         assert_eq!(pace.groups(), 20);
         pace.measured(20, u64::MAX);
         assert_eq!(pace.groups(), 1, "never nothing");
-        pace.measured(1, 0);
-        assert!(pace.groups() > 1, "a clock that stood still");
+        (0..200).for_each(|_| pace.measured(pace.groups(), 0));
+        assert!(pace.groups() > 1, "a clock that stands still");
+    }
+
+    #[test]
+    fn a_dear_chunk_is_remembered_over_a_cheap_one() {
+        let mut pace = Pace::new();
+        pace.measured(16, 16_000_000);
+        assert_eq!(pace.groups(), 20);
+        pace.measured(20, 20_000);
+        assert_eq!(pace.groups(), 28, "20 ms at 0.7 ms each");
     }
 }
