@@ -38,10 +38,12 @@ pub struct Canvas {
     /// Pictures begun so far.
     begun: u64,
     begun_at: Instant,
+    /// The first whose time is of interest: those before were of another size or by another kernel.
+    first_of_interest: u64,
     /// How long the last whole one took, all in all.
     last_took: Option<Duration>,
-    /// GPU time that the picture being traced has taken; `None` where the device has no timestamps.
-    picture_ns: Option<u64>,
+    /// The picture whose chunks are coming in, with their GPU time so far; `None` where the device has no timestamps.
+    timed: (u64, Option<u64>),
     finished_ns: Vec<u64>,
     uploaded_bytes: u64,
     device: Arc<Device>,
@@ -65,6 +67,7 @@ struct Chunk {
     picture: u64,
     groups: u64,
     is_last: bool,
+    begun_at: Instant,
     submitted: Instant,
 }
 
@@ -86,8 +89,9 @@ impl Canvas {
             places: [timer()?, timer()?],
             begun: 0,
             begun_at: Instant::now(),
+            first_of_interest: 0,
             last_took: None,
-            picture_ns: Some(0),
+            timed: (0, Some(0)),
             finished_ns: Vec::new(),
             uploaded_bytes: 0,
             device: device.clone(),
@@ -135,8 +139,7 @@ impl Canvas {
         self.is_in_place = true;
         self.last_took = None;
         self.sweep = Sweep::new(self.kernel.groups(self.size));
-        // What is still in flight is of no picture.
-        self.begun += 1;
+        self.first_of_interest = self.begun + 1;
     }
 
     /// Asks for a picture of the scene; of a scene unchanged, nothing is traced.
@@ -154,7 +157,7 @@ impl Canvas {
 
     /// Asks for the same picture once more.
     pub fn trace_again(&mut self, scene: &Scene) -> Result<(), TracerError> {
-        if self.next.is_none() && !self.is_tracing() {
+        if self.is_whole() {
             self.next = Some(CourseScene::new(scene, scene.max_depth, self.size)?);
         }
         Ok(())
@@ -200,12 +203,14 @@ impl Canvas {
         // Without timestamps, what the host saw is at least an upper bound.
         let at_most_ns = || chunk.submitted.elapsed().as_nanos() as u64;
         self.pace.measured(chunk.groups, time_ns.unwrap_or_else(at_most_ns));
-        if chunk.picture == self.begun {
-            self.picture_ns = self.picture_ns.zip(time_ns).map(|(sum, time_ns)| sum + time_ns);
-            if chunk.is_last {
-                self.last_took = Some(self.begun_at.elapsed());
-                self.finished_ns.extend(self.picture_ns);
-            }
+        // Chunks come in as they went out: none of an older picture follows one of a newer.
+        if self.timed.0 != chunk.picture {
+            self.timed = (chunk.picture, Some(0));
+        }
+        self.timed.1 = self.timed.1.zip(time_ns).map(|(sum, time_ns)| sum + time_ns);
+        if chunk.is_last && chunk.picture >= self.first_of_interest {
+            self.last_took = Some(chunk.begun_at.elapsed());
+            self.finished_ns.extend(self.timed.1);
         }
         Ok(())
     }
@@ -237,7 +242,8 @@ impl Canvas {
             Ok(())
         })?;
         let is_last = self.sweep.left() == 0;
-        self.places[place].chunk = Some(Chunk { picture: self.begun, groups, is_last, submitted: Instant::now() });
+        self.places[place].chunk =
+            Some(Chunk { picture: self.begun, groups, is_last, begun_at: self.begun_at, submitted: Instant::now() });
         if is_last {
             self.shown = target;
         }
@@ -251,7 +257,6 @@ impl Canvas {
         self.current = Some(scene);
         self.begun += 1;
         self.begun_at = Instant::now();
-        self.picture_ns = Some(0);
         if self.sweep.left() > 0 {
             self.sweep.start_here();
         } else {

@@ -77,7 +77,8 @@ impl Session {
         let is_whole_before = self.is_whole();
         let Some(screen) = &mut self.screen else { return Ok(()) };
         screen.trace()?;
-        let has_news = self.take_times();
+        // While picture follows picture, the next one tells of the last one's time.
+        let has_news = self.take_times() && !self.state.is_continuous;
         if has_news || self.is_whole() != is_whole_before {
             self.wake();
         }
@@ -275,7 +276,7 @@ impl Session {
         let is_whole_before = self.is_whole();
         let Some(screen) = &mut self.screen else { return Ok(()) };
         let is_shown = screen.show(widgets, BACKGROUND, corner)?;
-        if self.take_times() || !is_shown {
+        if self.take_times() && !self.state.is_continuous || !is_shown {
             self.wake();
         }
         let input_at = self.latency.input_at.take();
