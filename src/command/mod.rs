@@ -18,6 +18,7 @@ use crate::frame::FrameError;
 use crate::gpu::{GpuError, Message};
 use crate::scene::{Scene, SceneError, gallery as ready};
 use crate::tracer::TracerError;
+use crate::viewer::ViewerError;
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -92,6 +93,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.downcast_ref().is_some_and(FrameError::is_input_error)
             || cause.downcast_ref().is_some_and(GpuError::is_input_error)
             || cause.downcast_ref().is_some_and(TracerError::is_input_error)
+            || cause.downcast_ref().is_some_and(ViewerError::is_input_error)
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });
     if matches!(error.downcast_ref(), Some(TracerError::Stopped)) {

@@ -43,7 +43,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
     }
     let scene = scene_named(&args.scene)?;
     let is_file = gallery::scene(&args.scene).is_none();
-    let document = Document::new(scene, is_file.then(|| args.scene.clone().into()));
+    let document = Document::new(scene, is_file.then(|| PathBuf::from(&args.scene)));
     let options = Options {
         device: args.device.device.clone(),
         validation: if args.validate { Validation::BestPractices } else { Validation::Off },

@@ -35,6 +35,11 @@ impl InFlight {
         Ok(self.next)
     }
 
+    /// The places of the ring, from the one submitted from longest ago.
+    pub fn places(&self) -> [usize; Self::COUNT] {
+        std::array::from_fn(|offset| (self.next + offset) % Self::COUNT)
+    }
+
     pub fn wait_for_all(&mut self) -> Result<(), GpuError> {
         self.ring.iter_mut().try_for_each(Commands::wait)
     }

@@ -145,7 +145,7 @@ fn compile(
         .name(c"main")
         .specialization_info(&specialization);
     let info = vk::ComputePipelineCreateInfo::default()
-        // For `Recorder::dispatch_part`.
+        // For `Recorder::dispatch_parts`.
         .flags(vk::PipelineCreateFlags::DISPATCH_BASE)
         .stage(stage)
         .layout(layout);

@@ -111,8 +111,9 @@ impl Canvas {
     /// Another kernel from the next chunk on; the picture is to be [asked for](Canvas::show) again.
     pub fn replace_shader(&mut self, shader: &Shader) -> Result<(), TracerError> {
         let kernel = CourseKernel::new(&self.device, shader, PrimitiveRecords::default(), DEPTH_LIMIT, WORKGROUP)?;
-        for image in &mut self.images {
-            image.set = kernel.bind(&image.resource)?;
+        let sets = [kernel.bind(&self.images[0].resource)?, kernel.bind(&self.images[1].resource)?];
+        for (image, set) in self.images.iter_mut().zip(sets) {
+            image.set = set;
         }
         self.kernel = kernel;
         self.forget_scene();
@@ -215,6 +216,12 @@ impl Canvas {
         Ok(())
     }
 
+    /// Collects what is in flight, in its order, before a submission of another kind takes a place of the ring.
+    fn collect_all(&mut self, in_flight: &mut InFlight) -> Result<(), GpuError> {
+        in_flight.wait_for_all()?;
+        in_flight.places().into_iter().try_for_each(|place| self.collect(place))
+    }
+
     /// Records the next chunk, if there is any, for a submission from this place of the ring, which is
     /// [collected](Canvas::collect).
     pub fn record(&mut self, recorder: &mut Recorder, place: usize) -> Result<(), GpuError> {
@@ -275,7 +282,8 @@ impl Canvas {
     }
 
     /// The picture shown, as it is now.
-    pub fn read_back(&self, in_flight: &mut InFlight) -> Result<Frame, TracerError> {
+    pub fn read_back(&mut self, in_flight: &mut InFlight) -> Result<Frame, TracerError> {
+        self.collect_all(in_flight)?;
         let [width, height] = self.size;
         let mut frame = Frame::new(width, height)?;
         let bytes = frame.pixels().len() as u64 * StorageImage::PIXEL_BYTES;
@@ -299,6 +307,7 @@ impl Canvas {
     /// Shows a picture traced elsewhere, of the canvas's size.
     pub fn put(&mut self, in_flight: &mut InFlight, frame: &Frame) -> Result<(), TracerError> {
         assert_eq!([frame.width(), frame.height()], self.size, "the picture is of another size");
+        self.collect_all(in_flight)?;
         self.forget_scene();
         let pixels: Vec<[f32; 4]> = frame.pixels().iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
         let bytes: &[u8] = bytemuck::cast_slice(&pixels);

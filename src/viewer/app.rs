@@ -12,7 +12,7 @@ use winit::window::{Window, WindowId};
 
 use super::document::Document;
 use super::preferences::{self, Preferences};
-use super::recovery_file;
+use super::recovery::Recovery;
 use super::screen::ScreenError;
 use super::session::{NextFrame, Session};
 use super::state::State;
@@ -50,6 +50,13 @@ pub enum ViewerError {
     Events(EventLoopError),
 }
 
+impl ViewerError {
+    /// Whether the user's choice is at fault, not the machine.
+    pub fn is_input_error(&self) -> bool {
+        matches!(self, Self::Screen(ScreenError::Tracer(error)) if error.is_input_error())
+    }
+}
+
 /// The reason alone: winit puts a line of its own source before it.
 fn without_place(error: &EventLoopError) -> String {
     let text = error.to_string();
@@ -82,17 +89,16 @@ pub fn run(document: Document, options: Options, on_start: impl FnOnce(Stopper))
     let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(ViewerError::NoDisplay)?;
     let folder = options.config_folder.as_deref();
     let remembered = folder.map(|folder| Preferences::load(&preferences::file_in(folder)));
-    let recovered = folder.and_then(recovery_file::read);
+    let (recovery, recovered) = Recovery::new(folder);
     let state = State::new(document, remembered.unwrap_or_default(), recovered);
     let proxy = event_loop.create_proxy();
     on_start(Stopper(proxy.clone()));
     let messages = Messages::default();
-    let of_session = messages.clone();
     let mut app = App {
-        stage: Stage::Waiting(Some(Box::new(state))),
-        make_session: Box::new(move |window, state| {
-            Session::new(window, state, options.clone(), of_session.clone(), proxy.clone())
-        }),
+        stage: Stage::Waiting(Some(Box::new((state, recovery)))),
+        options,
+        messages: messages.clone(),
+        proxy,
         failure: None,
     };
     event_loop.run_app(&mut app).map_err(ViewerError::Events)?;
@@ -104,13 +110,15 @@ pub fn run(document: Document, options: Options, on_start: impl FnOnce(Stopper))
 
 struct App {
     stage: Stage,
-    make_session: Box<dyn Fn(Arc<Window>, State) -> Result<Session, ScreenError>>,
+    options: Options,
+    messages: Messages,
+    proxy: EventLoopProxy<Wake>,
     failure: Option<ViewerError>,
 }
 
 enum Stage {
     /// For the event loop to say that windows can be opened; empty once one could not.
-    Waiting(Option<Box<State>>),
+    Waiting(Option<Box<(State, Recovery)>>),
     Open(Box<Session>),
 }
 
@@ -119,12 +127,13 @@ impl App {
         match &mut self.stage {
             Stage::Open(session) => session.resume()?,
             Stage::Waiting(state) => {
-                let Some(state) = state.take() else { return Ok(()) };
+                let Some((state, recovery)) = state.take().map(|waiting| *waiting) else { return Ok(()) };
                 let [width, height] = state.preferences.window_size;
                 let attributes =
                     Window::default_attributes().with_title("zerkalo").with_inner_size(LogicalSize::new(width, height));
                 let window = Arc::new(event_loop.create_window(attributes)?);
-                let session = (self.make_session)(window, *state)?;
+                let (options, messages) = (self.options.clone(), self.messages.clone());
+                let session = Session::new(window, state, recovery, options, messages, self.proxy.clone())?;
                 session.window().request_redraw();
                 self.stage = Stage::Open(Box::new(session));
             }

@@ -25,6 +25,7 @@ impl Document {
 
     /// A valid scene that was never saved to `path` as it is.
     pub fn recovered(scene: Scene, path: Option<PathBuf>) -> Self {
+        let path = path.map(|path| absolute(&path));
         Self {
             opening_camera: scene.camera.clone(),
             current: Snapshot { scene, selection: None },
@@ -91,7 +92,7 @@ impl Document {
     pub fn save_to(&mut self, path: &Path) -> Result<(), SceneError> {
         self.scene().save(path)?;
         self.saved = Some(self.scene().clone());
-        self.path = Some(path.to_owned());
+        self.path = Some(absolute(path));
         Ok(())
     }
 
@@ -135,6 +136,11 @@ impl Document {
         self.select(selection);
         Ok(())
     }
+}
+
+/// The same file whatever the working directory, as of the next run, which may be offered the document.
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }
 
 #[cfg(test)]

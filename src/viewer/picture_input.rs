@@ -16,7 +16,8 @@ const CLICK_SLACK: f64 = 4.0;
 #[derive(Debug, Default)]
 pub struct PictureInput {
     cursor: DVec2,
-    gesture: Option<Gesture>,
+    /// With the button that it ends with.
+    gesture: Option<(Gesture, MouseButton)>,
     keys: HashSet<KeyCode>,
     is_alt_held: bool,
 }
@@ -31,16 +32,6 @@ enum Gesture {
     Click(DVec2),
 }
 
-impl Gesture {
-    fn ends_with(self, button: MouseButton) -> bool {
-        match self {
-            Self::Look => button == MouseButton::Right,
-            Self::Orbit(_) => matches!(button, MouseButton::Middle | MouseButton::Left),
-            Self::Click(_) => button == MouseButton::Left,
-        }
-    }
-}
-
 impl PictureInput {
     /// Pixels from the window's top left corner.
     pub fn cursor(&self) -> DVec2 {
@@ -50,19 +41,20 @@ impl PictureInput {
     /// A button goes down over the picture; `pivot` is what there is to go around.
     pub fn press(&mut self, button: MouseButton, pivot: DVec3) {
         if self.gesture.is_none() {
-            self.gesture = match button {
-                MouseButton::Right => Some(Gesture::Look),
-                MouseButton::Middle => Some(Gesture::Orbit(pivot)),
-                MouseButton::Left if self.is_alt_held => Some(Gesture::Orbit(pivot)),
-                MouseButton::Left => Some(Gesture::Click(self.cursor)),
-                _ => None,
+            let gesture = match button {
+                MouseButton::Right => Gesture::Look,
+                MouseButton::Middle => Gesture::Orbit(pivot),
+                MouseButton::Left if self.is_alt_held => Gesture::Orbit(pivot),
+                MouseButton::Left => Gesture::Click(self.cursor),
+                _ => return,
             };
+            self.gesture = Some((gesture, button));
         }
     }
 
     /// A button goes up, anywhere; returns where a click was made.
     pub fn release(&mut self, button: MouseButton) -> Option<DVec2> {
-        let gesture = self.gesture.take_if(|gesture| gesture.ends_with(button))?;
+        let (gesture, _) = self.gesture.take_if(|(_, held)| *held == button)?;
         match gesture {
             Gesture::Click(from) => (from.distance(self.cursor) <= CLICK_SLACK).then_some(from),
             Gesture::Look | Gesture::Orbit(_) => None,
@@ -72,7 +64,7 @@ impl PictureInput {
     /// The cursor moves, anywhere.
     pub fn move_to(&mut self, cursor: DVec2, camera: &mut Camera, is_inverted: bool) {
         let pixels = cursor - std::mem::replace(&mut self.cursor, cursor);
-        match self.gesture {
+        match self.gesture.map(|(gesture, _)| gesture) {
             Some(Gesture::Look) => camera_motion::look(camera, pixels, is_inverted),
             Some(Gesture::Orbit(pivot)) => camera_motion::orbit(camera, pivot, pixels),
             Some(Gesture::Click(_)) | None => {}
@@ -110,7 +102,7 @@ impl PictureInput {
             left: wish(KeyCode::KeyA, KeyCode::KeyD),
             up: wish(KeyCode::KeyQ, KeyCode::KeyE),
         };
-        (self.gesture == Some(Gesture::Look) && flight != Flight::default()).then_some(flight)
+        (matches!(self.gesture, Some((Gesture::Look, _))) && flight != Flight::default()).then_some(flight)
     }
 }
 

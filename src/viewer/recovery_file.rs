@@ -17,33 +17,22 @@ const PATH_MARK: &str = "# unsaved changes to ";
 ///
 /// A path that is not Unicode is not kept: it is asked for at the next save. A scene beyond the size of a TOML scene
 /// file, 16 MiB, will not be read again.
-pub fn write(folder: &Path, document: &Document) -> io::Result<()> {
+pub fn write(file: &Path, document: &Document) -> io::Result<()> {
     let path = document.path().and_then(Path::to_str);
     let text = format!("{PATH_MARK}{}\n{}", serde_json::to_string(&path)?, document.scene().to_toml());
-    fs::create_dir_all(folder)?;
-    let mut file = WholeFile::create(&file_in(folder))?;
+    let mut file = WholeFile::create(file)?;
     file.as_file_mut().write_all(text.as_bytes())?;
     file.finish()
 }
 
 /// The document that was kept, unsaved; none if there is none or it cannot be read.
-pub fn read(folder: &Path) -> Option<Document> {
-    let text = fs::read_to_string(file_in(folder)).ok()?;
+pub fn read(file: &Path) -> Option<Document> {
+    let text = fs::read_to_string(file).ok()?;
     let (mark, scene) = text.split_once('\n')?;
     let path: Option<String> = mark.strip_prefix(PATH_MARK).and_then(|path| serde_json::from_str(path).ok()?);
-    Some(Document::recovered(Scene::from_toml(scene).ok()?, path.map(PathBuf::from)))
-}
-
-/// Forgets what was kept, if anything was.
-pub fn remove(folder: &Path) -> io::Result<()> {
-    fs::remove_file(file_in(folder)).or_else(|error| match error.kind() {
-        io::ErrorKind::NotFound => Ok(()),
-        _ => Err(error),
-    })
-}
-
-fn file_in(folder: &Path) -> PathBuf {
-    folder.join("recovery.toml")
+    // A relative one would mean another file in another working directory.
+    let path = path.map(PathBuf::from).filter(|path| path.is_absolute());
+    Some(Document::recovered(Scene::from_toml(scene).ok()?, path))
 }
 
 #[cfg(test)]
@@ -55,13 +44,19 @@ mod tests {
         gallery::scene("showcase").unwrap()
     }
 
+    /// A file's place in a folder that goes with the test.
+    fn place() -> (tempfile::TempDir, PathBuf) {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("recovery.toml");
+        (folder, file)
+    }
+
     #[test]
     fn what_was_kept_comes_back_unsaved_with_its_path() {
-        let folder = tempfile::tempdir().unwrap();
-        let deep = folder.path().join("not/yet/there");
+        let (_folder, file) = place();
         for path in [None, Some(PathBuf::from("/home/я/a \"b\"\n\u{7f}\\c.toml"))] {
-            write(&deep, &Document::new(showcase(), path.clone())).unwrap();
-            let document = read(&deep).unwrap();
+            write(&file, &Document::new(showcase(), path.clone())).unwrap();
+            let document = read(&file).unwrap();
             assert_eq!((document.scene(), document.path()), (&showcase(), path.as_deref()));
             assert!(document.has_unsaved_changes());
         }
@@ -69,42 +64,33 @@ mod tests {
 
     #[test]
     fn it_is_a_scene_file() {
-        let folder = tempfile::tempdir().unwrap();
-        write(folder.path(), &Document::new(showcase(), Some(PathBuf::from("/a.toml")))).unwrap();
-        assert_eq!(Scene::load(&file_in(folder.path())).unwrap(), showcase());
-    }
-
-    #[test]
-    fn removing_it_twice_is_no_error_and_leaves_nothing() {
-        let folder = tempfile::tempdir().unwrap();
-        write(folder.path(), &Document::new(Scene::default(), None)).unwrap();
-        remove(folder.path()).unwrap();
-        remove(folder.path()).unwrap();
-        assert!(read(folder.path()).is_none());
-        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+        let (_folder, file) = place();
+        write(&file, &Document::new(showcase(), Some(PathBuf::from("/a.toml")))).unwrap();
+        assert_eq!(Scene::load(&file).unwrap(), showcase());
     }
 
     #[test]
     fn a_damaged_file_is_ignored() {
-        let folder = tempfile::tempdir().unwrap();
-        write(folder.path(), &Document::new(showcase(), None)).unwrap();
-        let whole = fs::read(file_in(folder.path())).unwrap();
+        let (_folder, file) = place();
+        write(&file, &Document::new(showcase(), None)).unwrap();
+        let whole = fs::read(&file).unwrap();
         for length in (0..whole.len()).step_by(7) {
-            fs::write(file_in(folder.path()), &whole[..length]).unwrap();
-            assert!(read(folder.path()).is_none_or(|document| document.scene().validate().is_ok()), "{length} bytes");
+            fs::write(&file, &whole[..length]).unwrap();
+            assert!(read(&file).is_none_or(|document| document.scene().validate().is_ok()), "{length} bytes");
         }
         for damaged in [&b""[..], b"\n[[[", b"\xff\xff\n", b"# unsaved changes to null\nmax_depth = 0"] {
-            fs::write(file_in(folder.path()), damaged).unwrap();
-            assert!(read(folder.path()).is_none(), "{damaged:?}");
+            fs::write(&file, damaged).unwrap();
+            assert!(read(&file).is_none(), "{damaged:?}");
         }
     }
 
     #[test]
-    fn a_damaged_path_does_not_lose_the_scene() {
-        let folder = tempfile::tempdir().unwrap();
-        for mark in ["", "# unsaved changes to \"/home", "# anything"] {
-            fs::write(file_in(folder.path()), format!("{mark}\n{}", showcase().to_toml())).unwrap();
-            let document = read(folder.path()).unwrap();
+    fn a_damaged_or_relative_path_does_not_lose_the_scene() {
+        let (_folder, file) = place();
+        let relative = "# unsaved changes to \"scene.toml\"";
+        for mark in ["", "# unsaved changes to \"/home", "# anything", relative] {
+            fs::write(&file, format!("{mark}\n{}", showcase().to_toml())).unwrap();
+            let document = read(&file).unwrap();
             assert_eq!((document.scene(), document.path()), (&showcase(), None));
         }
     }

@@ -55,7 +55,8 @@ pub struct Screen {
     pub in_flight: InFlight,
     is_outdated: bool,
     waits_for_display: bool,
-    surface: Arc<Surface>,
+    /// `None` while suspended.
+    surface: Option<Arc<Surface>>,
     target: Arc<dyn SurfaceTarget>,
     device: Arc<Device>,
 }
@@ -85,7 +86,7 @@ impl Screen {
             in_flight: InFlight::new(&device, "window")?,
             is_outdated: true,
             waits_for_display,
-            surface,
+            surface: Some(surface),
             target,
             device,
         })
@@ -103,11 +104,12 @@ impl Screen {
 
     /// Makes the swapchain go with a window of `size` pixels; `false` while nothing of it is to be seen.
     pub fn prepare(&mut self, size: [u32; 2]) -> Result<bool, ScreenError> {
+        let Some(surface) = &self.surface else { return Ok(false) };
         if self.is_outdated {
             self.in_flight.wait_for_all()?;
             // The window cannot serve two at a time.
             self.swapchain = None;
-            self.swapchain = Swapchain::new(&self.device, &self.surface, size, self.waits_for_display)?;
+            self.swapchain = Swapchain::new(&self.device, surface, size, self.waits_for_display)?;
             let Some(swapchain) = &self.swapchain else { return Ok(false) };
             self.is_outdated = false;
             let render_mode = RenderMode::RenderPass(swapchain.render_pass);
@@ -157,9 +159,10 @@ impl Screen {
                 failed = drawn.err();
             })
         })?;
-        let fit = swapchain.present(image)?;
+        let presented = swapchain.present(image)?;
+        let (Ok(fit) | Err(fit)) = presented;
         self.mend(fit)?;
-        failed.map_or(Ok(true), |error| Err(error.into()))
+        failed.map_or(Ok(presented.is_ok()), |error| Err(error.into()))
     }
 
     fn mend(&mut self, fit: Fit) -> Result<(), ScreenError> {
@@ -175,7 +178,8 @@ impl Screen {
     pub fn replace_surface(&mut self) -> Result<(), ScreenError> {
         self.in_flight.wait_for_all()?;
         self.swapchain = None;
-        self.surface = Arc::new(Surface::new(self.device.instance(), &self.target)?);
+        self.surface = None;
+        self.surface = Some(Arc::new(Surface::new(self.device.instance(), &self.target)?));
         self.is_outdated = true;
         Ok(())
     }
@@ -184,6 +188,7 @@ impl Screen {
     pub fn suspend(&mut self) -> Result<(), ScreenError> {
         self.in_flight.wait_for_all()?;
         self.swapchain = None;
+        self.surface = None;
         self.is_outdated = true;
         Ok(())
     }

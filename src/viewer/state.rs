@@ -49,6 +49,8 @@ pub enum Message {
     NothingSelected,
     /// The course's «Превышено максимальное число примитивов»
     TooManyPrimitives,
+    /// A screenshot's, before its picture was whole.
+    SceneChanged,
     /// In the words of what failed, such as a scene file's fault with its line.
     Failure(String),
 }
@@ -315,7 +317,8 @@ impl State {
         mem::take(&mut self.errand)
     }
 
-    fn say(&mut self, message: Message) {
+    /// Shows a message, after the dialog that is open.
+    pub fn say(&mut self, message: Message) {
         if self.dialog.is_none() {
             self.dialog = Some(Dialog::Message(message));
         } else {

@@ -249,17 +249,19 @@ impl Swapchain {
         }
     }
 
-    /// Shows the image once it is filled.
-    pub fn present(&self, image: Acquired) -> Result<Fit, GpuError> {
+    /// Shows the image once it is filled; `Err(Fit)` inside when the window did not take it.
+    pub fn present(&self, image: Acquired) -> Result<Result<Fit, Fit>, GpuError> {
         let filled = [self.images[image.index as usize].filled];
         let (swapchains, indices) = ([self.raw], [image.index]);
         let info =
             vk::PresentInfoKHR::default().wait_semaphores(&filled).swapchains(&swapchains).image_indices(&indices);
         // SAFETY: the image was acquired, and a submission signals the semaphore.
         match unsafe { self.functions.queue_present(self.device.queue, &info) } {
-            Ok(false) => Ok(Fit::Good),
-            Ok(true) => Ok(Fit::Outdated),
-            Err(result) => unfit(result).ok_or(GpuError::Call { operation: "show a window image".into(), result }),
+            Ok(false) => Ok(Ok(Fit::Good)),
+            Ok(true) => Ok(Ok(Fit::Outdated)),
+            Err(result) => {
+                unfit(result).map(Err).ok_or(GpuError::Call { operation: "show a window image".into(), result })
+            }
         }
     }
 }

@@ -157,6 +157,7 @@ pub struct DialogWords {
     pub ok: &'static str,
     pub cancel: &'static str,
     pub no_primitives: &'static str,
+    pub scene_changed: &'static str,
     pub nothing_selected: &'static str,
     pub too_many_primitives: &'static str,
 
@@ -231,6 +232,7 @@ impl Words {
             Message::NoPrimitives => self.dialogs.no_primitives,
             Message::NothingSelected => self.dialogs.nothing_selected,
             Message::TooManyPrimitives => self.dialogs.too_many_primitives,
+            Message::SceneChanged => self.dialogs.scene_changed,
             Message::Failure(what) => what,
         }
     }

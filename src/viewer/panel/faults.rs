@@ -1,6 +1,6 @@
 //! What keeps the picture from being drawn anew, in a box over the last good one.
 
-use egui::{Frame, Rect, RichText, ScrollArea, Ui, UiBuilder};
+use egui::{Area, Frame, Rect, RichText, ScrollArea, Ui};
 
 use super::Readings;
 use crate::viewer::text::Words;
@@ -15,13 +15,17 @@ pub fn show(ui: &mut Ui, picture: Rect, words: &Words, readings: &Readings) {
     if faults.is_empty() || !picture.is_positive() {
         return;
     }
-    let mut ui = ui.new_child(UiBuilder::new().max_rect(picture.shrink(MARGIN)));
-    for (title, what) in faults {
-        Frame::popup(ui.style()).show(&mut ui, |ui| {
-            ui.label(RichText::new(title).strong().color(ui.visuals().error_fg_color));
-            // Compilers say much, and columns matter in it.
-            let text = RichText::new(what).monospace();
-            ScrollArea::both().id_salt(title).max_height(picture.height() / 3.0).show(ui, |ui| ui.label(text));
-        });
-    }
+    let place = picture.shrink(MARGIN);
+    // A layer of its own: what is done here is not done to the picture beneath.
+    Area::new("faults".into()).fixed_pos(place.min).constrain_to(picture).show(ui.ctx(), |ui| {
+        ui.set_max_width(place.width());
+        for (title, what) in faults {
+            Frame::popup(ui.style()).show(ui, |ui| {
+                ui.label(RichText::new(title).strong().color(ui.visuals().error_fg_color));
+                // Compilers say much, and columns matter in it.
+                let text = RichText::new(what).monospace();
+                ScrollArea::both().id_salt(title).max_height(picture.height() / 3.0).show(ui, |ui| ui.label(text));
+            });
+        }
+    });
 }

@@ -54,7 +54,7 @@ pub(super) struct Session {
     #[cfg(debug_assertions)]
     shader_watch: Option<ShaderWatch>,
     reference: Reference,
-    screenshots: Vec<PathBuf>,
+    screenshots: Vec<Screenshot>,
     observer: Option<Observer>,
     last_frame: Instant,
     /// Whether the keys were flying in the last frame.
@@ -67,6 +67,7 @@ pub(super) struct Session {
     /// Nothing of the window is to be seen.
     is_occluded: bool,
     is_quitting: bool,
+    title: String,
     proxy: EventLoopProxy<Wake>,
     window: Arc<Window>,
 }
@@ -76,6 +77,15 @@ pub(super) struct Session {
 struct Reference {
     worker: Option<ReferenceWorker>,
     shown: Option<(Scene, [u32; 2])>,
+    /// Why there is no picture of this scene at this size.
+    failure: Option<(Scene, [u32; 2], String)>,
+}
+
+/// A screenshot that waits for the picture to be whole.
+struct Screenshot {
+    path: PathBuf,
+    /// As it was asked for.
+    scene: Scene,
 }
 
 /// How often the device was lost.
@@ -107,6 +117,7 @@ impl Session {
     pub fn new(
         window: Arc<Window>,
         state: State,
+        recovery: Recovery,
         options: Options,
         messages: Messages,
         proxy: EventLoopProxy<Wake>,
@@ -133,13 +144,14 @@ impl Session {
             observer: options.is_observed.then(Observer::default),
             last_frame: Instant::now(),
             is_flying: false,
-            recovery: Recovery::new(options.config_folder.clone()),
+            recovery,
             losses: Losses::default(),
             latency: Latency::default(),
             pictures_traced: 0,
             frames: 0,
             is_occluded: false,
             is_quitting: false,
+            title: String::new(),
             proxy,
             options,
             state,
@@ -240,9 +252,12 @@ impl Session {
         let cursor = self.input.cursor() / f64::from(self.context.pixels_per_point());
         let cursor = egui::pos2(cursor.x as f32, cursor.y as f32);
         let layer = self.context.layer_id_at(cursor);
+        // The panel's edge can be taken hold of from a little outside it; a click beside an open menu closes that.
+        let edge = self.context.global_style().interaction.resize_grab_radius_side;
         self.state.dialog.is_none()
-            && self.picture.contains(cursor)
+            && self.picture.shrink(edge).contains(cursor)
             && layer.is_none_or(|layer| layer.order == egui::Order::Background)
+            && !egui::Popup::is_any_open(&self.context)
     }
 
     /// What the mouse goes around: the selected primitive, or what is seen in the picture's centre, or else the origin.
@@ -278,7 +293,9 @@ impl Session {
         for effect in self.state.apply(action) {
             match effect {
                 Effect::Quit => self.is_quitting = true,
-                Effect::SaveScreenshot(path) => self.screenshots.push(path),
+                Effect::SaveScreenshot(path) => {
+                    self.screenshots.push(Screenshot { path, scene: self.state.document.scene().clone() });
+                }
             }
         }
         if (kernel, is_continuous) != (self.state.kernel, self.state.is_continuous) {
@@ -291,8 +308,9 @@ impl Session {
         }
     }
 
+    /// Whether the window is to be closed; not before the screenshots asked for are taken.
     pub fn is_quitting(&self) -> bool {
-        self.is_quitting
+        self.is_quitting && self.screenshots.is_empty()
     }
 
     pub fn suspend(&mut self) -> Result<(), ScreenError> {

@@ -8,9 +8,9 @@ use super::super::observer::{Observation, widgets};
 use super::super::panel::{Readings, Shown, style};
 use super::super::reference_worker::ReferenceWorker;
 use super::super::screen::{Screen, ScreenError, Widgets};
-use super::super::state::Dialog;
+use super::super::state::{Dialog, Message};
 use super::super::{camera_motion, highlight, preferences};
-use super::{Losses, NextFrame, Reference, Session, new_egui, open_screen};
+use super::{Losses, NextFrame, Reference, Screenshot, Session, new_egui, open_screen};
 use crate::gpu::GpuError;
 use crate::scene::Scene;
 use crate::tracer::TracerError;
@@ -20,6 +20,9 @@ const LONGEST_STEP: Duration = Duration::from_millis(250);
 
 /// A picture that takes long is shown as it grows, so often.
 const GROWING_PERIOD: Duration = Duration::from_millis(100);
+
+/// A window that takes no image is asked again after this: it may be hidden without having said so.
+const RETRY_PERIOD: Duration = Duration::from_millis(250);
 
 /// Where neither picture nor widgets are: a line at the picture's edge at most.
 const BACKGROUND: [f32; 4] = [0.0, 0.0, 0.0, 1.0];
@@ -46,6 +49,9 @@ impl Session {
     }
 
     fn try_paint(&mut self) -> Result<NextFrame, ScreenError> {
+        if !self.is_recovering() {
+            self.recovery.note(&self.state.document);
+        }
         let size = self.window.inner_size();
         let Some(screen) = &mut self.screen else { return Ok(NextFrame::Whenever) };
         if size.width == 0 || size.height == 0 || !screen.prepare([size.width, size.height])? {
@@ -87,6 +93,9 @@ impl Session {
 
     fn show(&mut self) -> Result<(), ScreenError> {
         self.widgets_due = None;
+        if self.state.dialog.is_some() {
+            self.input.let_go();
+        }
         let is_whole_before = self.is_whole();
         self.fly();
         let (mut widgets, observation, repaint_delay) = self.run_widgets();
@@ -96,7 +105,7 @@ impl Session {
         self.ask_for_picture()?;
         self.present(&mut widgets)?;
         self.take_screenshots()?;
-        self.note_change();
+        self.show_title();
         self.observe(observation);
         if self.is_whole() != is_whole_before {
             // The widgets have told of what was.
@@ -116,6 +125,7 @@ impl Session {
         let finished = screen.canvas.take_finished_ns();
         self.pictures_traced += finished.len() as u64;
         finished.iter().for_each(|time_ns| self.frame_times.push(*time_ns));
+        self.losses.is_fresh &= finished.is_empty();
         !finished.is_empty()
     }
 
@@ -229,7 +239,11 @@ impl Session {
             Kernel::Course => {
                 self.reference = Reference::default();
                 let shown = screen.canvas.show(scene);
-                if shown.is_ok() && self.state.is_continuous { screen.canvas.trace_again(scene) } else { shown }
+                if shown.is_ok() && self.state.is_continuous && self.screenshots.is_empty() {
+                    screen.canvas.trace_again(scene)
+                } else {
+                    shown
+                }
             }
             Kernel::Reference => self.ask_for_reference(),
         };
@@ -244,14 +258,24 @@ impl Session {
     fn ask_for_reference(&mut self) -> Result<(), TracerError> {
         let Some(screen) = &mut self.screen else { return Ok(()) };
         let (scene, size) = (self.state.document.scene(), screen.canvas.size());
-        let Reference { worker, shown } = &mut self.reference;
-        if let Some(Ok(frame)) = worker.as_ref().filter(|worker| worker.size == size).and_then(ReferenceWorker::take) {
-            screen.canvas.put(&mut screen.in_flight, &frame)?;
-            self.pictures_traced += 1;
-            *shown = worker.take().map(|worker| (worker.scene.clone(), worker.size));
+        let Reference { worker, shown, failure } = &mut self.reference;
+        match worker.as_ref().filter(|worker| worker.size == size).and_then(ReferenceWorker::take) {
+            Some(Ok(frame)) => {
+                screen.canvas.put(&mut screen.in_flight, &frame)?;
+                self.pictures_traced += 1;
+                *shown = worker.take().map(|worker| (worker.scene.clone(), worker.size));
+            }
+            Some(Err(reason)) => {
+                *failure = worker.take().map(|worker| (worker.scene.clone(), worker.size, reason));
+            }
+            None => {}
         }
         let is_current = |of: &(Scene, [u32; 2])| of.0 == *scene && of.1 == size;
         let is_asked = worker.as_ref().is_some_and(|worker| worker.scene == *scene && worker.size == size);
+        let failed = failure.as_ref().filter(|failure| failure.0 == *scene && failure.1 == size);
+        if let Some((_, _, reason)) = failed {
+            return Err(TracerError::Refused(reason.clone()));
+        }
         if shown.as_ref().is_some_and(is_current) {
             *worker = None;
         } else if !is_asked {
@@ -276,51 +300,70 @@ impl Session {
         let is_whole_before = self.is_whole();
         let Some(screen) = &mut self.screen else { return Ok(()) };
         let is_shown = screen.show(widgets, BACKGROUND, corner)?;
-        if self.take_times() && !self.state.is_continuous || !is_shown {
+        if self.take_times() && !self.state.is_continuous {
             self.wake();
+        }
+        if !is_shown {
+            self.widgets_due = Some(Instant::now() + RETRY_PERIOD);
         }
         let input_at = self.latency.input_at.take();
         if !is_whole_before && self.latency.changed_at.is_none() {
             self.latency.changed_at = input_at;
         }
-        if self.is_whole() {
-            self.losses.is_fresh = false;
-            if let Some(changed_at) = self.latency.changed_at.take()
-                && self.observer.is_some()
-                && let Some(screen) = &mut self.screen
-            {
-                // Only who asks for the figure pays for it.
-                screen.in_flight.wait_for_all()?;
-                self.latency.last_ms = Some(changed_at.elapsed().as_secs_f64() * 1e3);
-            }
+        if self.is_whole()
+            && let Some(changed_at) = self.latency.changed_at.take()
+            && self.observer.is_some()
+            && let Some(screen) = &mut self.screen
+        {
+            // Only who asks for the figure pays for it.
+            screen.in_flight.wait_for_all()?;
+            self.latency.last_ms = Some(changed_at.elapsed().as_secs_f64() * 1e3);
         }
         Ok(())
     }
 
-    /// Of whole pictures only; until then they wait.
+    /// Of whole pictures only: until then they wait, and one whose scene has changed meanwhile is not taken.
     fn take_screenshots(&mut self) -> Result<(), ScreenError> {
+        if self.screenshots.is_empty() {
+            return Ok(());
+        }
+        if let Some(refusal) = self.refusal.clone() {
+            self.screenshots.clear();
+            self.state.report(refusal);
+            self.wake();
+            return Ok(());
+        }
+        let scene = self.state.document.scene();
+        let asked = self.screenshots.len();
+        self.screenshots.retain(|screenshot| screenshot.scene == *scene);
+        if self.screenshots.len() < asked {
+            self.state.say(Message::SceneChanged);
+            self.wake();
+        }
         if self.screenshots.is_empty() || !self.is_whole() {
             return Ok(());
         }
         let Some(screen) = &mut self.screen else { return Ok(()) };
         let frame = screen.canvas.read_back(&mut screen.in_flight)?;
-        for path in std::mem::take(&mut self.screenshots) {
+        for Screenshot { path, .. } in std::mem::take(&mut self.screenshots) {
             if let Err(error) = frame.save(&path) {
                 self.state.report(error);
+                self.widgets_due = Some(Instant::now());
             }
         }
         Ok(())
     }
 
-    /// What the window's frame tells, and what is to be kept should the program not come to a good end.
-    fn note_change(&mut self) {
+    /// What the window's frame tells.
+    fn show_title(&mut self) {
         let document = &self.state.document;
         let name = document.path().and_then(|path| path.file_name()).map(|name| name.display().to_string());
         let mark = if document.has_unsaved_changes() { "* " } else { "" };
         let name = name.map(|name| name + " — ").unwrap_or_default();
-        self.window.set_title(&format!("{mark}{name}zerkalo"));
-        if !self.is_recovering() {
-            self.recovery.note(document);
+        let title = format!("{mark}{name}zerkalo");
+        if title != self.title {
+            self.window.set_title(&title);
+            self.title = title;
         }
     }
 

@@ -89,6 +89,7 @@ pub(super) static WORDS: Words = Words {
         ok: "OK",
         cancel: "Cancel",
         no_primitives: "No primitive has been added.",
+        scene_changed: "The scene changed before its picture was whole; no screenshot was taken.",
         nothing_selected: "No primitive is selected.",
         too_many_primitives: "The maximum number of primitives is exceeded",
         unsaved_title: "Unsaved changes",

@@ -93,6 +93,7 @@ pub(super) static WORDS: Words = Words {
         ok: "OK",
         cancel: "Отмена",
         no_primitives: "Не добавлено ни одного примитива.",
+        scene_changed: "Сцена изменилась раньше, чем изображение было готово; снимок не сделан.",
         nothing_selected: "Не выбран ни один примитив.",
         too_many_primitives: "Превышено максимальное число примитивов",
         unsaved_title: "Несохранённые изменения",
