@@ -15,7 +15,10 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, readings: &Readings) {
         Kernel::Reference => groups.kernel_reference,
     };
     let rate = words.frames_per_second(readings.frame_times.frames_per_second());
-    ui.horizontal_wrapped(|ui| {
+    // One row, cut off where it ends: a bar that grew with its readings would take room from the picture, which would
+    // be traced anew, and read otherwise again.
+    ui.horizontal(|ui| {
+        ui.set_height(ui.spacing().interact_size.y);
         file(ui, words, state);
         for reading in [readings.device, &format!("{width}×{height}"), kernel, &format!("{rate} {}", groups.fps)] {
             ui.separator();
