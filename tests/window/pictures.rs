@@ -1,0 +1,72 @@
+//! The picture in the window is the picture.
+
+use zerkalo::frame::{Frame, display_value};
+use zerkalo::scene::gallery;
+
+use crate::driver::{Desk, Locale};
+
+fn display_values(frame: &Frame) -> Vec<[u8; 3]> {
+    frame.pixels().iter().map(|pixel| pixel.map(display_value)).collect()
+}
+
+#[test]
+fn screenshots_and_the_window_s_own_pixels_are_the_rendered_picture() {
+    let desk = Desk::new(Locale::Russian, [701, 503]);
+    for name in ["showcase", "several", "grid-cone-30"] {
+        let mut window = desk.view(&[name]);
+        let now = window.now().clone();
+        let rendered = desk.render(name, now.picture_size);
+        let exr = window.screenshot("window.exr");
+        assert!(exr == rendered, "{name}: the EXR file is not what `zerkalo render` makes");
+        let png = window.screenshot("window.png");
+        assert_eq!(display_values(&png), display_values(&rendered), "{name}");
+
+        let desktop = desk.display.screenshot(&desk.path("desktop.png"));
+        let ([left, top], [width, height]) = (now.picture_corner, now.picture_size);
+        let rows = desktop.rows().skip(top as usize).take(height as usize);
+        let shown = rows.flat_map(|row| &row[left as usize..(left + width) as usize]);
+        for (i, (shown, rendered)) in shown.zip(display_values(&rendered)).enumerate() {
+            let shown = shown.map(display_value);
+            // The device rounds to eight bits by itself.
+            let is_near = (0..3).all(|channel| shown[channel].abs_diff(rendered[channel]) <= 1);
+            assert!(is_near, "{name}: pixel {i} is shown as {shown:?} and should be {rendered:?}");
+        }
+        std::fs::remove_file(desk.path("window.exr")).unwrap();
+        std::fs::remove_file(desk.path("window.png")).unwrap();
+        window.close();
+    }
+}
+
+#[test]
+fn the_gallery_s_menu_opens_its_scenes() {
+    let desk = Desk::new(Locale::Russian, [700, 500]);
+    let mut window = desk.view(&["start"]);
+    for (path, name) in [
+        (&["Галерея", "четыре тела среди зеркал"][..], "showcase"),
+        (&["Галерея", "рисунок 3.6: изменённый цвет источника"], "light"),
+        (&["Галерея", "Таблица 4.1: цилиндры", "таблица 4.1: цилиндры, 30"], "grid-cylinder-30"),
+    ] {
+        window.menu(path);
+        let count = gallery::scene(name).unwrap().primitives.len();
+        window.wait_until("it is opened", |now| now.primitives == count);
+        let size = window.settle().picture_size;
+        let file = format!("{name}.exr");
+        assert!(window.screenshot(&file) == desk.render(name, size), "{name}");
+    }
+    window.close();
+}
+
+#[test]
+fn the_accurate_model_draws_when_it_is_chosen() {
+    let desk = Desk::new(Locale::Russian, [560, 300]);
+    let mut window = desk.view(&["four"]);
+    let course = window.screenshot("course.exr");
+    window.click("Точная модель (ЦП)");
+    window.wait_until("the other picture", |now| now.kernel == "reference" && now.is_whole);
+    let accurate = window.screenshot("accurate.exr");
+    assert!(accurate != course, "a cone has a base, and highlights are where the light is");
+    window.click("Курсовая (Vulkan)");
+    window.wait_until("the first again", |now| now.kernel == "course" && now.is_whole);
+    assert!(window.screenshot("again.exr") == course);
+    window.close();
+}
