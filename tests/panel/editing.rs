@@ -1,0 +1,101 @@
+//! Names, choosing, deleting, undo.
+
+use egui::{Key, Modifiers, Vec2};
+use egui_kittest::kittest::Queryable;
+use zerkalo::viewer::preferences::Language;
+
+use crate::hands::*;
+
+#[test]
+fn a_typed_name_renames_and_an_empty_one_gives_the_number_back() {
+    for (language, add, field, list, numbered) in [
+        (Language::Russian, "Добавить сферу", "Имя примитива", "Выбранный примитив", "Сфера1"),
+        (Language::English, "Add a sphere", "Name of the primitive", "Selected primitive", "Sphere1"),
+    ] {
+        let mut window = open(language);
+        click(&mut window, add);
+        retype(&mut window, field, "левый шар");
+        press(&mut window, Modifiers::NONE, Key::Enter);
+        assert_eq!(
+            (selected(&window).name.as_deref(), value(&window, list).as_str()),
+            (Some("левый шар"), "левый шар")
+        );
+        retype(&mut window, field, " ");
+        press(&mut window, Modifiers::NONE, Key::Enter);
+        assert_eq!((selected(&window).name.as_deref(), value(&window, list).as_str()), (None, numbered));
+    }
+}
+
+#[test]
+fn primitives_are_chosen_from_a_list_of_all_names() {
+    let mut window = open(Language::Russian);
+    for what in ["сферу", "конус", "сферу"] {
+        click(&mut window, &format!("Добавить {what}"));
+    }
+    for (name, index) in [("Конус1", Some(1)), ("Сфера1", Some(0)), ("не выбран", None)] {
+        click(&mut window, "Выбранный примитив");
+        click(&mut window, name);
+        assert_eq!(window.state().state.document.selection(), index, "{name}");
+        assert_eq!(value(&window, "Выбранный примитив"), name);
+    }
+}
+
+#[test]
+fn delete_removes_the_selected_primitive_but_not_while_typing() {
+    let mut window = open(Language::Russian);
+    click(&mut window, "Добавить сферу");
+    begin_to_type(&mut window, "Перемещение примитива: x", "3");
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    click(&mut window, "Имя примитива");
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(scene(&window).primitives.len(), 1);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    assert_eq!(scene(&window).primitives.len(), 0);
+}
+
+#[test]
+fn undo_and_redo_answer_to_their_keys() {
+    let mut window = open(Language::English);
+    click(&mut window, "Add a sphere");
+    click(&mut window, "Add a cone");
+    let count = |window: &Window| scene(window).primitives.len();
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(count(&window), 0);
+    press(&mut window, REDO, Key::Z);
+    assert_eq!(count(&window), 1);
+    press(&mut window, Modifiers::COMMAND, Key::Y);
+    assert_eq!(count(&window), 2);
+}
+
+#[test]
+fn a_drag_is_one_step_back_and_so_is_each_typed_value() {
+    let mut window = open(Language::Russian);
+    let name = "Параметры света: y";
+    type_into(&mut window, name, "1");
+    type_into(&mut window, name, "2");
+    let start = window.get_by_label(name).rect().center();
+    window.hover_at(start);
+    window.drag_at(start);
+    for point in 1..=40_u16 {
+        window.hover_at(start + Vec2::new(f32::from(point), 0.0));
+    }
+    window.drop_at(start + Vec2::new(40.0, 0.0));
+    window.run();
+    assert!(scene(&window).lights[0].position.y > 5.0);
+    for expected in ["2", "1", "0"] {
+        press(&mut window, Modifiers::COMMAND, Key::Z);
+        assert_eq!(value(&window, name), expected);
+    }
+    assert!(!window.state().state.document.can_undo());
+}
+
+#[test]
+fn duplicating_answers_to_its_key_and_its_button() {
+    let mut window = open(Language::English);
+    click(&mut window, "Add a cone");
+    press(&mut window, Modifiers::COMMAND, Key::D);
+    click(&mut window, "Duplicate the primitive");
+    assert_eq!(scene(&window).primitives.len(), 3);
+}

@@ -1,0 +1,105 @@
+//! Language, looks, menus and what is told of the tracing.
+
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
+use zerkalo::scene::gallery;
+use zerkalo::viewer::action::{Action, Effect, Kernel};
+use zerkalo::viewer::preferences::{Language, Preferences, Theme};
+use zerkalo::viewer::state::{Dialog, FilePurpose};
+
+use crate::hands::*;
+
+#[test]
+fn the_language_is_switched_in_the_menu_and_changes_every_label() {
+    let mut window = open(Language::Russian);
+    for (view, menu, language, here, gone) in [
+        ("Вид", "Язык", "English", "Material of the primitive", "Материал примитива"),
+        ("View", "Language", "Русский", "Материал примитива", "Material of the primitive"),
+    ] {
+        click(&mut window, view);
+        window.get_by_label(menu).hover();
+        window.run();
+        click(&mut window, language);
+        press(&mut window, Modifiers::NONE, Key::Escape);
+        assert!(is_there(&window, here) && !is_there(&window, gone), "{language}");
+    }
+}
+
+#[test]
+fn theme_and_scale_are_what_is_preferred() {
+    let mut window = open(Language::English);
+    let preferences = Preferences { theme: Theme::Light, ui_scale: 1.5, ..window.state().state.preferences.clone() };
+    apply(&mut window, Action::SetPreferences(preferences));
+    assert_eq!((window.ctx.theme(), window.ctx.zoom_factor()), (egui::Theme::Light, 1.5));
+}
+
+#[test]
+fn the_rate_is_a_dash_or_a_number_above_zero() {
+    let mut window = open(Language::English);
+    assert!(is_there(&window, "FPS: —") && is_there(&window, "Median: —"));
+    for sample_ns in [0, 1, 16_666_667, u64::MAX] {
+        window.state_mut().frame_times.clear();
+        window.state_mut().frame_times.push(sample_ns);
+        window.run();
+        for node in window.get_all_by_label_contains("FPS") {
+            let text = node.value().unwrap_or_default();
+            let has_digit = text.contains(|c: char| ('1'..='9').contains(&c));
+            assert!(has_digit && !text.contains("inf") && !text.contains("NaN"), "{sample_ns} ns: {text}");
+        }
+    }
+    window.state_mut().frame_times.clear();
+    window.state_mut().frame_times.push(20_000_000);
+    window.run();
+    assert!(is_there(&window, "FPS: 50.0") && is_there(&window, "99th percentile: 20.0 ms"));
+}
+
+#[test]
+fn camera_and_kernel_answer_to_their_widgets() {
+    let mut window = open(Language::Russian);
+    type_into(&mut window, "Сцена и камера: глубина отражений", "5");
+    type_into(&mut window, "Сцена и камера: угол обзора по вертикали, °", "40");
+    type_into(&mut window, "Сцена и камера: скорость полёта, ед./с", "8");
+    type_into(&mut window, "Фон: B", "1.5");
+    for button in ["как в курсовой", "Точная модель (ЦП)", "Инвертировать мышь", "Непрерывная трассировка"]
+    {
+        click(&mut window, button);
+    }
+    let state = &window.state().state;
+    let scene = state.document.scene();
+    assert_eq!((scene.max_depth, scene.camera.vertical_fov_degrees, scene.background.z), (5, 40.0, 1.5));
+    assert_eq!((scene.camera.projection.name(), state.kernel), ("course", Kernel::Reference));
+    assert_eq!(state.preferences.fly_speed, 8.0);
+    assert!(state.preferences.is_mouse_inverted && state.is_continuous);
+}
+
+#[test]
+fn gallery_scenes_open_by_their_description() {
+    let mut window = open(Language::Russian);
+    click(&mut window, "Галерея");
+    click(&mut window, "рисунок 3.5: четыре примитива");
+    assert_eq!(scene(&window), &gallery::scene("four").unwrap());
+    click(&mut window, "Галерея");
+    window.get_by_label("Таблица 4.1: конусы").hover();
+    window.run();
+    click(&mut window, "таблица 4.1: конусы, 20");
+    assert_eq!(scene(&window), &gallery::scene("grid-cone-20").unwrap());
+}
+
+#[test]
+fn the_menus_do_what_the_keys_do() {
+    let mut window = open(Language::English);
+    click(&mut window, "Add a sphere");
+    for (menu, item) in [("Edit", "Duplicate"), ("Edit", "Delete"), ("Edit", "Undo"), ("Edit", "Undo")] {
+        click(&mut window, menu);
+        click(&mut window, item);
+    }
+    assert_eq!(scene(&window).primitives.len(), 1);
+    click(&mut window, "File");
+    click(&mut window, "Save as…");
+    assert_eq!(window.state().state.dialog, Some(Dialog::File(FilePurpose::Save)));
+    click(&mut window, "Cancel");
+    click(&mut window, "File");
+    click(&mut window, "Quit");
+    click(&mut window, "Do not save");
+    assert_eq!(window.state().effects, [Effect::Quit]);
+}
