@@ -139,18 +139,17 @@ fn course_3_5_3_reflections_repeat_to_depth_five_and_grow_weaker() {
     let strengths: Vec<f32> =
         generations.iter().map(|added| added.iter().flatten().map(|channel| channel.abs()).sum()).collect();
     assert!(strengths[3] > 0.0 && strengths.windows(2).all(|pair| pair[1] < pair[0]), "{strengths:?}");
-    // The green sphere shows the red box, in that itself, in that the box again.
+    // The green sphere shows the red box, in that itself, in that the box, in that itself again: in ever fewer pixels.
     const SPHERE: usize = 0;
-    let is_red = |[red, green, _]: [f32; 3]| red > 4.0 * green.abs() && red > 0.01;
-    let is_green = |[red, green, _]: [f32; 3]| green > 2.0 * red.abs() && green > 0.002;
-    let repeats = |i: usize| is_red(generations[0][i]) && is_green(generations[1][i]) && is_red(generations[2][i]);
-    let count = (0..seen.len()).filter(|&i| seen[i] == Some(SPHERE) && repeats(i)).count();
-    assert!(count > 20, "no pixel shows the sphere in the box in the sphere: {count}");
+    let dominates = |added: [f32; 3], channel: usize| added[channel] > 1.5 * added[1 - channel].abs().max(1e-3);
+    let repeats = |i: usize, count: usize| (0..count).all(|depth| dominates(generations[depth][i], depth % 2));
+    let chains =
+        [1, 2, 3, 4].map(|count| (0..seen.len()).filter(|&i| seen[i] == Some(SPHERE) && repeats(i, count)).count());
+    assert!(chains[3] >= 5 && chains.windows(2).all(|pair| pair[1] < pair[0]), "{chains:?}");
 }
 
 #[test]
 fn course_3_5_4_two_solids_are_seen_in_a_third() {
-    const MIRROR: usize = 0;
     let desk = Desk::new(Locale::Russian, SIZE);
     let mut window = desk.view(&["start"]);
     window.menu(&["Галерея", "рисунок 3.8: два примитива в третьем"]);
@@ -159,29 +158,40 @@ fn course_3_5_4_two_solids_are_seen_in_a_third() {
     let scene = saved_and_rendered_alike(&desk, &mut window, &all);
     let seen = seen(&scene, &all);
 
-    let mut without = |index: usize, file: &str| {
+    // In the mirror, the red box's image is red and the green cone's green; the rest is the bluish mirror.
+    let [red, green] = images(&mut window, &seen, "both");
+    assert!(red > 500 && green > 200, "the mirror shows too little: {red} red pixels and {green} green ones");
+    for (index, left) in [(1, [0, green]), (2, [red, 0])] {
         let pixel = middle_of(&seen, index, all.width());
         window.click_at(window.last().in_picture_pixel(pixel));
         window.wait_until("it is selected", |now| now.selection == Some(index));
         window.key("Delete");
         window.wait_until("it is gone", |now| now.primitives == 2);
-        let frame = window.screenshot(file);
-        window.key("ctrl+z");
+        assert_eq!(
+            images(&mut window, &seen, &format!("without{index}-")),
+            left,
+            "its image goes with it, and no other"
+        );
+        window.keys(&["ctrl+z"], 3);
         window.wait_until("it is back", |now| now.primitives == 3);
-        frame
-    };
-    let (box_gone, cone_gone) = (without(1, "without_box.exr"), without(2, "without_cone.exr"));
-    // In the mirror, the red box adds red and the green cone green, each in a place of its own.
-    let in_mirror = |gone: &Frame, channel: usize| {
-        let added = difference(&all, gone);
-        let is_its = |i: &usize| added[*i][channel] > 0.1 && added[*i][channel] > 2.0 * added[*i][1 - channel].abs();
-        (0..seen.len()).filter(|&i| seen[i] == Some(MIRROR)).filter(is_its).collect::<Vec<_>>()
-    };
-    let (red, green) = (in_mirror(&box_gone, 0), in_mirror(&cone_gone, 1));
-    assert!(red.len() > 100 && green.len() > 100, "{} red pixels and {} green ones", red.len(), green.len());
-    let mean_column = |pixels: &[usize]| pixels.iter().map(|i| i % all.width() as usize).sum::<usize>() / pixels.len();
-    assert!(mean_column(&red) < mean_column(&green), "the box stands on the left and the cone on the right");
+    }
     window.close();
+}
+
+/// How many pixels of the mirror the second generation of rays makes red, and how many green.
+#[track_caller]
+fn images(window: &mut Window, seen: &[Option<usize>], file: &str) -> [usize; 2] {
+    const MIRROR: usize = 0;
+    let mut drawn = |depth: f64| {
+        window.fill("Сцена и камера: глубина отражений", depth);
+        window.screenshot(&format!("{file}{depth}.exr"))
+    };
+    let (plain, mirrored) = (drawn(1.0), drawn(2.0));
+    let added = difference(&mirrored, &plain);
+    let is_of = |added: [f32; 3], channel: usize| {
+        (0..3).all(|other| other == channel || added[channel] > 1.5 * added[other].abs())
+    };
+    [0, 1].map(|channel| (0..seen.len()).filter(|&i| seen[i] == Some(MIRROR) && is_of(added[i], channel)).count())
 }
 
 /// A pixel well within what is seen of a primitive: the middle of its middle row.

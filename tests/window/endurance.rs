@@ -55,10 +55,11 @@ fn a_minute_of_everything_is_without_a_word_of_validation() {
         window.keys(&["ctrl+d", "ctrl+d", "Delete", "ctrl+z", "ctrl+shift+z"], 3);
         window.fill("Material of the primitive: K_s", if rounds % 2 == 0 { 0.75 } else { 0.8 });
         window.resize([500 + 61 * (rounds % 6), 420 + 53 * (rounds % 5)]);
+        // While it is on, the picture is never whole for long.
         window.click("Continuous tracing");
         window.drag(RIGHT, middle, [-80.0, 20.0]);
-        window.resize([700, 500]);
         window.click("Continuous tracing");
+        window.resize([700, 500]);
         window.menu(&["Gallery", scenes[rounds as usize % scenes.len()]]);
         window.click("Do not save");
         window.wait_until("the next scene", |now| now.dialog.is_none() && !now.has_unsaved_changes);

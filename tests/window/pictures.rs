@@ -70,3 +70,21 @@ fn the_accurate_model_draws_when_it_is_chosen() {
     assert!(window.screenshot("again.exr") == course);
     window.close();
 }
+
+#[test]
+fn a_screenshot_is_taken_while_picture_follows_picture() {
+    let desk = Desk::new(Locale::Russian, [700, 500]);
+    let mut window = desk.view(&["four"]);
+    let size = window.now().picture_size;
+    window.click("Непрерывная трассировка");
+    window.key("F12");
+    window.type_into("Имя файла", "moving.exr");
+    window.wait_until("the dialog closes", |now| now.dialog.is_none());
+    let traced = window.now().pictures_traced;
+    window.wait_until("many more pictures", |now| now.pictures_traced > traced + 20);
+    assert!(desk.path("moving.exr").exists(), "it waits for a rest that does not come");
+    window.click("Непрерывная трассировка");
+    window.settle();
+    assert!(Frame::load(&desk.path("moving.exr")).unwrap() == desk.render("four", size));
+    window.close();
+}

@@ -3,7 +3,7 @@
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::driver::{Desk, Locale};
+use crate::driver::{Desk, Locale, Window};
 
 #[test]
 fn an_idle_window_costs_nothing_and_continuous_tracing_does() {
@@ -23,37 +23,56 @@ fn an_idle_window_costs_nothing_and_continuous_tracing_does() {
     window.close();
 }
 
+const LEFT: u32 = 1;
+
+/// How long the switch under the mouse takes to be seen turned, clicked again and again.
+#[track_caller]
+fn answers(window: &mut Window, switch: &str, is_tracing: bool) -> Vec<Duration> {
+    // What was done before is over.
+    thread::sleep(Duration::from_secs(1));
+    let answers = (0..20).map(|_| {
+        let before = window.now().value(switch).to_owned();
+        window.press(LEFT);
+        let clicked = Instant::now();
+        let mut hand = window.release_at_once(LEFT);
+        let answered = window.wait_until("the switch turns", |now| now.value(switch) != before);
+        let time = clicked.elapsed();
+        hand.wait().unwrap();
+        assert_eq!(answered.is_whole, !is_tracing, "{}", answered.in_short());
+        // Longer than between the two of a double click.
+        thread::sleep(Duration::from_millis(320));
+        time
+    });
+    answers.collect()
+}
+
+fn median(times: &[Duration]) -> Duration {
+    let mut sorted = times.to_vec();
+    sorted.sort();
+    sorted[sorted.len() / 2]
+}
+
 #[test]
 fn the_panel_answers_while_a_slow_picture_is_traced() {
     let desk = Desk::alone(Locale::Russian, [1500, 950]);
     let mut window = desk.view(&["start"]);
     let switch = "Инвертировать мышь";
     window.click(switch);
-    window.click(switch);
+    window.settle();
+    let idle = answers(&mut window, switch, false);
+    // Minutes of work for a software device.
     window.menu(&["Галерея", "Таблица 4.1: кубы", "таблица 4.1: кубы, 100"]);
     window.wait_until("the grid", |now| now.primitives == 100);
-    window.fill("Сцена и камера: глубина отражений", 100.0);
-    // On the switch, which does not move; its widget does not tell whether it is under the mouse.
     window.click(switch);
-    let begun = Instant::now();
-    let mut answers = Vec::new();
-    for _ in 0..20 {
-        let before = window.now().value(switch).to_owned();
-        let clicked = Instant::now();
-        window.click_again();
-        let answered = window.wait_until("the switch turns", |now| now.value(switch) != before);
-        answers.push(clicked.elapsed());
-        assert!(!answered.is_whole, "the picture came too soon, after {:?}", begun.elapsed());
-        // Longer than a double click would be.
-        thread::sleep(Duration::from_millis(320));
-    }
-    answers.sort();
-    let (median, longest) = (answers[answers.len() / 2], answers[answers.len() - 1]);
-    eprintln!("answers while a slow picture is traced: median {median:?}, longest {longest:?}");
-    // The issue asks for 100 ms. xdotool's own start, the layers and the two cores, which the software device takes
+    let busy = answers(&mut window, switch, true);
+    eprintln!(
+        "answers at rest: median {:?}; while a slow picture is traced: median {:?}",
+        median(&idle),
+        median(&busy)
+    );
+    eprintln!("all of the latter: {busy:?}");
+    // The issue asks for 100 ms. xdotool's own start, the validation layers and the two cores, which the software device takes
     // whole, are in the figure too; a window that waited for a picture of many seconds would be far off.
-    assert!(median < Duration::from_millis(250), "{answers:?}");
-    window.key("Escape");
-    window.menu(&["Галерея", "начальное состояние программы"]);
+    assert!(median(&busy) < Duration::from_millis(250), "{busy:?}");
     window.close();
 }

@@ -1,5 +1,6 @@
 //! Mouse and keyboard.
 
+use std::process::Child;
 use std::thread;
 use std::time::Duration;
 
@@ -45,6 +46,12 @@ impl Window<'_> {
     #[track_caller]
     pub fn click_again(&self) {
         self.desk.display.xdotool(&["click", "1"]);
+    }
+
+    /// Lets a button go and does not wait for xdotool to end, so that no more than its start is in a time taken.
+    #[track_caller]
+    pub fn release_at_once(&self, button: u32) -> Child {
+        self.desk.display.command("xdotool").args(["mouseup", &button.to_string()]).spawn().unwrap()
     }
 
     /// Presses a button at a place, moves the mouse by some pixels and lets go.
@@ -148,32 +155,23 @@ impl Window<'_> {
     /// Puts a number into a field.
     #[track_caller]
     pub fn fill(&mut self, name: &str, number: f64) {
-        const TRIES: u32 = 5;
-        let text = number.to_string();
-        // A field does not tell that it is ready for keys; those that come too soon are lost.
-        let is_filled = (0..TRIES).any(|_| {
-            self.click(name);
-            thread::sleep(STILL * 2);
-            self.type_over(&text);
-            self.wait_for(STILL * 20, |now| now.find(name).is_some_and(|field| field.value == text)).is_some()
-        });
-        assert!(is_filled, "{name:?} does not become {text}; last: {}", self.now().in_short());
-        self.key("Return");
+        self.type_into(name, &number.to_string());
     }
 
     /// Puts a text into a field and presses Enter.
     #[track_caller]
     pub fn type_into(&mut self, name: &str, text: &str) {
-        self.click(name);
-        thread::sleep(STILL);
-        self.type_over(text);
+        const TRIES: u32 = 5;
+        // A field does not tell that it is ready for keys; those that come too soon are lost.
+        let is_typed = (0..TRIES).any(|_| {
+            self.click(name);
+            thread::sleep(STILL);
+            self.key("ctrl+a");
+            self.desk.display.xdotool(&["type", "--delay", "10", "--", text]);
+            self.wait_for(STILL * 20, |now| now.find(name).is_some_and(|field| field.value == text)).is_some()
+        });
+        assert!(is_typed, "{name:?} does not become {text:?}; last: {}", self.now().in_short());
         self.key("Return");
-    }
-
-    #[track_caller]
-    fn type_over(&self, text: &str) {
-        self.key("ctrl+a");
-        self.desk.display.xdotool(&["type", "--delay", "10", "--", text]);
     }
 
     // ---- The window.
