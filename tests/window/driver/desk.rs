@@ -112,12 +112,15 @@ impl Desk {
         command
     }
 
-    /// What `zerkalo render` makes of a scene, a file in the folder or a name of the gallery.
+    /// What `zerkalo render` makes of a scene, a file in the folder or a name of the gallery, by the kernel that the
+    /// window starts with.
     #[track_caller]
     pub fn render(&self, scene: &str, [width, height]: [u32; 2]) -> Frame {
         let size = format!("{width}x{height}");
-        let Output { status, stderr, .. } =
-            self.program(&["render", scene, "-o", "rendered.exr", "--size", &size]).output().unwrap();
+        let Output { status, stderr, .. } = self
+            .program(&["render", scene, "-o", "rendered.exr", "--size", &size, "--kernel", "course"])
+            .output()
+            .unwrap();
         assert!(status.success(), "{}", String::from_utf8_lossy(&stderr));
         Frame::load(&self.path("rendered.exr")).unwrap()
     }

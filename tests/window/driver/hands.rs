@@ -182,7 +182,9 @@ impl Window<'_> {
         // While picture follows picture, none is ever the last.
         let before = self.last().pictures_traced + 1;
         self.desk.display.xdotool(&["windowsize", &self.id, &width.to_string(), &height.to_string()]);
-        self.wait_until("the new size", |now| now.window == [width, height] && (now.is_whole || now.pictures_traced > before))
+        self.wait_until("the new size", |now| {
+            now.window == [width, height] && (now.is_whole || now.pictures_traced > before)
+        })
     }
 
     /// The picture by the program's own F12, through a file of that name.
