@@ -12,7 +12,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use shader_compiler::{AS_WRITTEN, compile, kernel_name};
+use shader_compiler::{AS_WRITTEN, compile, kernel_name, variants};
 
 const SHADER_DIR: &str = "glsl";
 
@@ -39,14 +39,20 @@ fn compile_all() -> Result<(), Box<dyn Error>> {
     let mut embedded = String::new();
     for kernel in &kernels {
         let kernel = kernel.strip_prefix(SHADER_DIR)?;
-        let name = kernel_name(kernel)?;
-        as_written.retain(|listed| *listed != name);
-        let spirv = compile(Path::new(SHADER_DIR), kernel, is_debug)?;
-        let spirv_path = out_dir.join(format!("{name}.spv"));
-        fs::write(&spirv_path, spirv.as_binary_u8())?;
-        let (constant, file) = (name.to_uppercase(), Path::new(SHADER_DIR).join(kernel));
-        writeln!(embedded, "/// `{}`\npub const {constant}: Shader =", file.display())?;
-        writeln!(embedded, "    Shader {{ name: {name:?}, spirv: Cow::Borrowed(include_bytes!({spirv_path:?})) }};")?;
+        let kernel_name = kernel_name(kernel)?;
+        as_written.retain(|listed| *listed != kernel_name);
+        for &variant in variants(&kernel_name) {
+            let name = format!("{kernel_name}{}", variant.suffix);
+            let spirv = compile(Path::new(SHADER_DIR), kernel, variant, is_debug)?;
+            let spirv_path = out_dir.join(format!("{name}.spv"));
+            fs::write(&spirv_path, spirv.as_binary_u8())?;
+            let (constant, file) = (name.to_uppercase(), Path::new(SHADER_DIR).join(kernel));
+            writeln!(embedded, "/// `{}`\npub const {constant}: Shader =", file.display())?;
+            writeln!(
+                embedded,
+                "    Shader {{ name: {name:?}, spirv: Cow::Borrowed(include_bytes!({spirv_path:?})) }};"
+            )?;
+        }
     }
     if let Some(missing) = as_written.first() {
         return Err(format!("AS_WRITTEN names {missing:?}, and there is no such kernel").into());

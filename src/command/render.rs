@@ -14,17 +14,29 @@ use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Message, Validation};
 use crate::reference::{self, RenderError};
 use crate::scene::{DEPTH_LIMIT, Scene};
-use crate::tracer::{Settings, Tracer, TracerError};
+use crate::tracer::{self, Settings, Tracer, TracerError};
 
 /// Which of the program's tracers draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Kernel {
     /// The course work's, quirks and all
-    #[default]
     Course,
+    /// The accurate model
+    #[default]
+    Whitted,
     /// The accurate model in f64 on the CPU, without Vulkan: the truth, slowly
     Reference,
+}
+
+/// What the accurate kernel calculates in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    #[default]
+    F32,
+    /// Only where the device has it
+    F64,
 }
 
 /// Render a scene into a PNG (display values) or EXR (linear values) file
@@ -41,6 +53,9 @@ pub struct RenderArgs {
     /// Which tracer draws
     #[arg(long, value_enum, default_value_t)]
     pub kernel: Kernel,
+    /// What the whitted kernel calculates in [default: f32]
+    #[arg(long, value_enum)]
+    pub precision: Option<Precision>,
     /// Generations of a ray, in place of the scene's
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT)))]
     pub max_depth: Option<u32>,
@@ -71,6 +86,8 @@ struct Report<'a> {
     width: u32,
     height: u32,
     kernel: Kernel,
+    /// What the kernel calculated in.
+    precision: Precision,
     device: &'a str,
     driver: &'a str,
     /// Median of `samples_ns`; null where there is none: no timestamps, or no Vulkan device.
@@ -93,13 +110,33 @@ struct Rendered {
 pub fn run(args: &RenderArgs) -> Result<()> {
     Frame::check_output_path(&args.output)?;
     let scene = scene_named(&args.scene)?;
+    check_precision(args)?;
     let rendered = match args.kernel {
-        Kernel::Course => on_device(args, &scene)?,
+        Kernel::Course | Kernel::Whitted => on_device(args, &scene)?,
         Kernel::Reference => on_cpu(args, scene)?,
     };
     rendered.frame.save(&args.output)?;
     report(args, &rendered)?;
     refuse_messages(&rendered.messages)
+}
+
+/// The other kernels know only one.
+fn check_precision(args: &RenderArgs) -> Result<(), TracerError> {
+    match (args.kernel, args.precision) {
+        (Kernel::Course, Some(Precision::F64)) => {
+            Err(TracerError::Refused("the course kernel calculates in f32 only; --kernel whitted has f64".to_owned()))
+        }
+        (Kernel::Reference, Some(Precision::F32)) => {
+            Err(TracerError::Refused("the reference calculates in f64 only; --kernel whitted has f32".to_owned()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// As given, else the kernel's own.
+fn precision(args: &RenderArgs) -> Precision {
+    let own = if args.kernel == Kernel::Reference { Precision::F64 } else { Precision::F32 };
+    args.precision.unwrap_or(own)
 }
 
 fn on_device(args: &RenderArgs, scene: &Scene) -> Result<Rendered> {
@@ -141,7 +178,12 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
 }
 
 fn settings(args: &RenderArgs) -> Settings {
-    Settings { max_depth: args.max_depth, ..Settings::new(args.size.0, args.size.1) }
+    let kernel = match (args.kernel, precision(args)) {
+        (Kernel::Course | Kernel::Reference, _) => tracer::Kernel::Course,
+        (Kernel::Whitted, Precision::F32) => tracer::Kernel::Whitted(tracer::Precision::F32),
+        (Kernel::Whitted, Precision::F64) => tracer::Kernel::Whitted(tracer::Precision::F64),
+    };
+    Settings { max_depth: args.max_depth, kernel, ..Settings::new(args.size.0, args.size.1) }
 }
 
 /// The frame and the GPU time of every measured render.
@@ -184,6 +226,7 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
             width,
             height,
             kernel: args.kernel,
+            precision: precision(args),
             device,
             driver,
             gpu_time_ns,

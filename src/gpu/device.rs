@@ -45,7 +45,11 @@ impl Device {
             vk::DeviceQueueCreateInfo::default().queue_family_index(candidate.queue_family).queue_priorities(&[1.0]);
         let queue_infos = [queue_info];
         let extensions = if shows_pictures { &[khr::swapchain::NAME.as_ptr()][..] } else { &[] };
-        let info = vk::DeviceCreateInfo::default().queue_create_infos(&queue_infos).enabled_extension_names(extensions);
+        let features = vk::PhysicalDeviceFeatures::default().shader_float64(candidate.description.float64);
+        let info = vk::DeviceCreateInfo::default()
+            .queue_create_infos(&queue_infos)
+            .enabled_extension_names(extensions)
+            .enabled_features(&features);
         // SAFETY: `candidate` was listed by this instance and has the queue family; `info` lives through the call.
         let raw = unsafe { instance.raw.create_device(candidate.raw, &info, None) }
             .map_err(GpuError::call(|| format!("open device '{name}'")))?;

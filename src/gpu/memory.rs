@@ -18,6 +18,8 @@ pub enum BufferKind {
     Uniform,
     /// Written by the host before, by shaders after; read back by the host.
     Storage,
+    /// Written by the host before the first use, read by shaders; of any length that the device allows.
+    Records,
     /// Written by copies, read by the host.
     Readback,
     /// Written by the host, read by copies.
@@ -28,7 +30,7 @@ impl BufferKind {
     fn usage(self) -> vk::BufferUsageFlags {
         match self {
             Self::Uniform => vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
-            Self::Storage => vk::BufferUsageFlags::STORAGE_BUFFER,
+            Self::Storage | Self::Records => vk::BufferUsageFlags::STORAGE_BUFFER,
             Self::Readback => vk::BufferUsageFlags::TRANSFER_DST,
             Self::Upload => vk::BufferUsageFlags::TRANSFER_SRC,
         }
@@ -36,7 +38,7 @@ impl BufferKind {
 
     fn location(self) -> MemoryLocation {
         match self {
-            Self::Uniform | Self::Upload => MemoryLocation::CpuToGpu,
+            Self::Uniform | Self::Records | Self::Upload => MemoryLocation::CpuToGpu,
             Self::Storage | Self::Readback => MemoryLocation::GpuToCpu,
         }
     }

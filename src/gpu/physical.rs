@@ -56,6 +56,10 @@ pub struct DeviceDescription {
     pub timestamps: bool,
     /// Largest picture side in one tile, pixels.
     pub max_image_side: u32,
+    /// Largest storage buffer that a kernel can see, bytes.
+    pub max_storage_bytes: u64,
+    /// Whether kernels can calculate in `f64`.
+    pub float64: bool,
     /// All that it lacks; empty when it can be used.
     pub lacks: Vec<String>,
 }
@@ -85,8 +89,9 @@ pub(super) fn list(instance: &Instance, surface: Option<&Surface>) -> Result<Vec
 
 fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk::PhysicalDevice) -> Candidate {
     // SAFETY: `raw` comes from this instance. The 1.2 structure is only chained where the device knows it.
-    let (properties, families, driver) = unsafe {
+    let (properties, features, families, driver) = unsafe {
         let properties = instance.raw.get_physical_device_properties(raw);
+        let features = instance.raw.get_physical_device_features(raw);
         let families = instance.raw.get_physical_device_queue_family_properties(raw);
         let driver = (properties.api_version >= vk::API_VERSION_1_2).then(|| {
             let mut driver = vk::PhysicalDeviceDriverProperties::default();
@@ -94,7 +99,7 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
             instance.raw.get_physical_device_properties2(raw, &mut properties2);
             format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()))
         });
-        (properties, families, driver)
+        (properties, features, families, driver)
     };
 
     let mut lacks = Vec::new();
@@ -130,6 +135,8 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
             api_version: version_text(properties.api_version),
             timestamps: timestamp_valid_bits > 0,
             max_image_side: properties.limits.max_image_dimension2_d,
+            max_storage_bytes: properties.limits.max_storage_buffer_range.into(),
+            float64: features.shader_float64 == vk::TRUE,
             lacks,
         },
         queue_family: queue_family.unwrap_or(0) as u32,
@@ -203,6 +210,8 @@ mod tests {
             api_version: "1.2.0".to_owned(),
             timestamps: true,
             max_image_side: 16384,
+            max_storage_bytes: 1 << 27,
+            float64: true,
             lacks: lacks.iter().map(|&lack| lack.to_owned()).collect(),
         }
     }

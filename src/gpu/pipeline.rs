@@ -17,6 +17,8 @@ pub enum BindingKind {
     Uniform,
     /// A storage buffer that is read, written or both.
     Storage,
+    /// A storage buffer that is only read.
+    Records,
     /// A storage image that is only written.
     Picture,
 }
@@ -25,14 +27,14 @@ impl BindingKind {
     fn descriptor_type(self) -> vk::DescriptorType {
         match self {
             Self::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
-            Self::Storage => vk::DescriptorType::STORAGE_BUFFER,
+            Self::Storage | Self::Records => vk::DescriptorType::STORAGE_BUFFER,
             Self::Picture => vk::DescriptorType::STORAGE_IMAGE,
         }
     }
 
     fn use_(self) -> Use {
         match self {
-            Self::Uniform => Use::ShaderRead,
+            Self::Uniform | Self::Records => Use::ShaderRead,
             Self::Storage | Self::Picture => Use::ShaderWrite,
         }
     }
@@ -196,6 +198,7 @@ impl Resource {
             Self::Buffer(buffer) => match binding {
                 BindingKind::Uniform => buffer.kind == BufferKind::Uniform,
                 BindingKind::Storage => buffer.kind == BufferKind::Storage,
+                BindingKind::Records => buffer.kind == BufferKind::Records,
                 BindingKind::Picture => false,
             },
             Self::Image(_) => binding == BindingKind::Picture,

@@ -8,13 +8,38 @@ use std::path::{Path, PathBuf};
 /// listings into a one-trip loop before inlining it. Measured on lavapipe, which inlines without that: 30 % slower.
 pub const AS_WRITTEN: [&str; 1] = ["course"];
 
-/// Compiles the kernel `folder`/`kernel` for Vulkan 1.2 (SPIR-V 1.5); build.rs says why.
+/// One build of a kernel's source: what is appended to its name, and macros with their values.
+#[derive(Clone, Copy)]
+pub struct Variant {
+    pub suffix: &'static str,
+    pub macros: &'static [(&'static str, &'static str)],
+}
+
+/// The source as it stands.
+pub const PLAIN: Variant = Variant { suffix: "", macros: &[] };
+
+const PRECISIONS: [Variant; 2] = [
+    Variant { suffix: "_f32", macros: &[("REAL_BITS", "32")] },
+    Variant { suffix: "_f64", macros: &[("REAL_BITS", "64")] },
+];
+
+/// Kernels of which one source makes several; all others are [`PLAIN`].
+const IN_BOTH_PRECISIONS: [&str; 3] = ["whitted", "probe_exact", "probe_rays"];
+
+/// The builds of a kernel, by its [name](kernel_name).
+#[allow(dead_code, reason = "build.rs makes them all; `view --watch` compiles one")]
+pub fn variants(name: &str) -> &'static [Variant] {
+    if IN_BOTH_PRECISIONS.contains(&name) { &PRECISIONS } else { &[PLAIN] }
+}
+
+/// Compiles a variant of the kernel `folder`/`kernel` for Vulkan 1.2 (SPIR-V 1.5); build.rs says why.
 ///
 /// # Errors
 /// The compiler's messages, with the shader's own files and lines; warnings are errors.
 pub fn compile(
     folder: &Path,
     kernel: &Path,
+    variant: Variant,
     with_debug_info: bool,
 ) -> Result<shaderc::CompilationArtifact, Box<dyn Error>> {
     let file = folder.join(kernel);
@@ -27,6 +52,7 @@ pub fn compile(
         false => shaderc::OptimizationLevel::Performance,
     });
     options.set_warnings_as_errors();
+    variant.macros.iter().for_each(|(name, value)| options.add_macro_definition(name, Some(value)));
     if with_debug_info {
         options.set_generate_debug_info();
     }

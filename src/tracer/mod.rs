@@ -4,7 +4,10 @@ mod canvas;
 mod chunks;
 mod course;
 mod records;
+mod scene_kernel;
 mod tiles;
+mod whitted;
+mod whitted_records;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -15,13 +18,14 @@ pub use records::{
     BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MaterialRecord, PrimitiveRecords, SphereRecord,
 };
 
+pub use whitted::{Precision, SCENE_BINDINGS, check_precision, scene_constants, upload_scene};
+pub use whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
+
 use crate::frame::{Frame, FrameError};
-use crate::gpu::{
-    BindingSet, Buffer, BufferKind, Commands, Device, GpuError, Resource, StorageImage, Timer, Use, shaders,
-};
+use crate::gpu::{BindingSet, Buffer, BufferKind, Commands, Device, GpuError, Resource, StorageImage, Timer, Use};
 use crate::scene::Scene;
 use chunks::Part;
-use course::{CourseKernel, CourseScene};
+use scene_kernel::SceneKernel;
 use tiles::{Tile, tiles};
 
 /// Why there is no frame. Each is one line.
@@ -50,6 +54,15 @@ impl TracerError {
     }
 }
 
+/// Which kernel draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kernel {
+    /// The course work's.
+    Course,
+    /// The accurate one.
+    Whitted(Precision),
+}
+
 /// How to render, apart from the scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Settings {
@@ -62,19 +75,20 @@ pub struct Settings {
     pub max_tile_side: u32,
     /// Pixels of a workgroup along x and y.
     pub workgroup: [u32; 2],
+    pub kernel: Kernel,
 }
 
 impl Settings {
+    /// By the course kernel.
     pub fn new(width: u32, height: u32) -> Self {
-        Self { width, height, max_depth: None, max_tile_side: 1024, workgroup: WORKGROUP }
+        Self { width, height, max_depth: None, max_tile_side: 1024, workgroup: WORKGROUP, kernel: Kernel::Course }
     }
 }
 
 /// A scene on a device, ready to be drawn again and again.
 pub struct Tracer {
-    kernel: CourseKernel,
+    kernel: SceneKernel,
     set: Arc<BindingSet>,
-    frame: FrameRecord,
     tiles: Vec<Tile>,
     width: u32,
     height: u32,
@@ -89,24 +103,21 @@ impl Tracer {
     /// # Errors
     /// A picture or a scene that the kernel cannot take, or a failing device.
     pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings) -> Result<Self, TracerError> {
-        let &Settings { width, height, max_depth, max_tile_side, workgroup } = settings;
+        let &Settings { width, height, max_depth, max_tile_side, .. } = settings;
         Frame::check_size(width, height)?;
         let max_depth = max_depth.unwrap_or(scene.max_depth);
-        let scene_records = CourseScene::new(scene, max_depth, [width, height])?;
+        let kernel = SceneKernel::new(device, scene, settings, max_depth)?;
         let max_tile_side = max_tile_side.clamp(1, device.description().max_image_side);
-        let tile_side = tile_side(max_tile_side, scene.primitives.len(), max_depth);
+        let tile_side = tile_side(max_tile_side, scene.primitives.len(), scene.lights.len(), max_depth);
         let (tile_width, tile_height) = (width.min(tile_side), height.min(tile_side));
 
         let picture = Arc::new(StorageImage::new(device, "picture", tile_width, tile_height)?);
         let tile_bytes = u64::from(tile_width) * u64::from(tile_height) * StorageImage::PIXEL_BYTES;
         let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, tile_bytes)?);
         let picture = Resource::from(&picture);
-        let CourseScene { frame, primitives } = scene_records;
-        let kernel = CourseKernel::new(device, &shaders::COURSE, primitives, max_depth, workgroup)?;
         Ok(Self {
             set: kernel.bind(&picture)?,
             kernel,
-            frame,
             tiles: tiles(width, height, tile_side),
             width,
             height,
@@ -148,16 +159,21 @@ impl Tracer {
         Ok(gpu_time_ns)
     }
 
+    /// From now on [`Tracer::render`] draws what each colour of the accurate kernel loses by rounding to `f32`, or the
+    /// colours again: an `f64` picture is the sum of the two, good to 48 bits. Other kernels lose nothing.
+    pub fn draw_remainder(&mut self, remainder: bool) {
+        self.kernel.write_remainder(remainder);
+    }
+
     /// Traces one tile and copies it to where the host reads it; returns the GPU time of the tracing.
     fn trace(&mut self, tile: Tile) -> Result<Option<u64>, GpuError> {
-        let Self { kernel, set, frame, picture, read_back, timer, commands, .. } = self;
-        let frame = frame.at_tile(tile.x, tile.y);
+        let Self { kernel, set, picture, read_back, timer, commands, .. } = self;
         let whole_tile = Part { first: [0, 0], groups: kernel.groups([tile.width, tile.height]) };
         commands.run(|recorder| {
             recorder.labelled("trace", |recorder| {
                 recorder.make_ready(picture, Use::ShaderWrite);
                 timer.iter().for_each(|timer| recorder.start(timer));
-                kernel.record(recorder, set, &frame, &[whole_tile]);
+                kernel.record(recorder, set, [tile.x, tile.y], whole_tile);
                 timer.iter().for_each(|timer| recorder.stop(timer));
                 Ok(())
             })?;
@@ -174,12 +190,12 @@ impl Tracer {
 }
 
 /// Side of a tile, pixels: at most `max`, and so small that one submission makes no more than about 2²⁸ intersection
-/// tests, if that leaves it 64 pixels. The kernel traces every ray through all generations, with a shadow ray each.
+/// tests, if that leaves it 64 pixels. At worst every ray goes through all generations, with a shadow ray a light each.
 /// 2²⁸ tests take lavapipe on two cores a second or two: so long may Ctrl-C and the progress bar wait; on a small GPU
 /// they stay far below the seconds after which a driver takes it for hung.
-fn tile_side(max: u32, primitives: usize, max_depth: u32) -> u32 {
+fn tile_side(max: u32, primitives: usize, lights: usize, max_depth: u32) -> u32 {
     const TESTS: u64 = 1 << 28;
-    let tests_per_pixel = u64::from(max_depth) * 2 * (primitives as u64 + 1);
+    let tests_per_pixel = u64::from(max_depth) * (1 + lights as u64) * (primitives as u64 + 1);
     let side = (TESTS / tests_per_pixel).isqrt() as u32;
     // A multiple of the workgroup's side leaves no invocations idle at the tile's edge.
     max.min((side / 8 * 8).max(64))
@@ -191,10 +207,10 @@ mod tests {
 
     #[test]
     fn heavy_scenes_take_small_tiles_and_light_ones_the_largest() {
-        assert_eq!(tile_side(1024, 0, 1), 1024);
-        assert_eq!(tile_side(1024, 8, 8), 1024);
-        assert_eq!(tile_side(1024, 100, 20), 256);
-        assert_eq!(tile_side(1024, 100, 1000), 64);
-        assert_eq!(tile_side(7, 100, 1000), 7);
+        assert_eq!(tile_side(1024, 0, 1, 1), 1024);
+        assert_eq!(tile_side(1024, 8, 1, 8), 1024);
+        assert_eq!(tile_side(1024, 100, 1, 20), 256);
+        assert_eq!(tile_side(1024, 100, 1, 1000), 64);
+        assert_eq!(tile_side(7, 100, 1, 1000), 7);
     }
 }

@@ -70,10 +70,22 @@ impl Subject {
         }
     }
 
-    /// Whether hit or miss hangs on less than `distance`: the solid grown by it is hit, shrunk by it missed.
-    fn is_within_band(&self, distance: f64, ray: &Ray) -> bool {
+    /// Whether hit or miss hangs on less than `distance`: the solid grown by it is hit, shrunk by it missed. What is no
+    /// thicker than that shrinks to nothing.
+    pub fn is_within_band(&self, distance: f64, ray: &Ray) -> bool {
         let is_hit = |grown_by: f64| TrueSolid::new(&self.solid, grown_by).first_hit(ray).is_some();
-        is_hit(distance) != is_hit(-distance)
+        is_hit(distance) != (distance < self.inner_radius() && is_hit(-distance))
+    }
+
+    /// Of the largest ball that the solid holds.
+    fn inner_radius(&self) -> f64 {
+        match self.solid {
+            Solid::Cone { height, half_angle_degrees, .. } => {
+                let sin = half_angle_degrees.to_radians().sin();
+                height * sin / (1.0 + sin)
+            }
+            _ => self.least_length(),
+        }
     }
 }
 

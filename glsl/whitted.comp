@@ -1,0 +1,23 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// The accurate kernel (DESIGN.md, "The accurate model"; NUMERICS.md): one source for float and double.
+layout(local_size_x_id = 5, local_size_y_id = 6) in;
+
+#include "whitted/solids.glsl"
+#include "whitted/shade.glsl"
+#include "whitted/trace.glsl"
+
+layout(binding = 0, rgba32f) uniform writeonly image2D picture; // one tile, linear RGB
+
+void main() {
+    uvec2 tile_pixel = gl_GlobalInvocationID.xy;
+    uvec2 pixel = uvec2(frame.tile_origin & 0xFFFFu, frame.tile_origin >> 16) + tile_pixel;
+    uvec2 size = uvec2(frame.image_size & 0xFFFFu, frame.image_size >> 16);
+    // The last workgroups of a tile and the last tiles of a picture reach past its edge.
+    if (any(greaterThanEqual(tile_pixel, uvec2(imageSize(picture)))) || any(greaterThanEqual(pixel, size))) return;
+
+    Real3 color = trace(primary_ray(pixel, size), whole_scene());
+    vec3 shown = vec3(min(color, Real3(3.4028234663852886e38)));
+    if (frame.writes_remainder != 0u) shown = vec3(color - Real3(shown));
+    imageStore(picture, ivec2(tile_pixel), vec4(shown, 1.0));
+}

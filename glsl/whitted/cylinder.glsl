@@ -1,0 +1,52 @@
+// The infinite body cut by the slab between the bases.
+
+AxisLine line_of(Cylinder cylinder, Ray ray) {
+    Line line = recentred(ray, cylinder.center, cylinder.center_error);
+    return about_axis(line, cylinder.axis, cylinder.axis_error, cylinder.reach);
+}
+
+// |offset + s * slope|^2 <= r^2. The discriminant is factored by Lagrange's identity: nothing cancels but r.
+Interval body(Cylinder cylinder, AxisLine at) {
+    Real radius = cylinder.radius;
+    precise Real distance = sqrt(dot(at.offset, at.offset));
+    if (at.slope_squared == 0.0) return distance <= radius ? WHOLE_LINE : EMPTY;
+    precise Real reach = radius * sqrt(at.slope_squared);
+    precise Real moment = abs(at.moment);
+    precise Real discriminant = (reach - moment) * (reach + moment);
+    if (discriminant < 0.0) return EMPTY;
+    precise Real c = (distance - radius) * (distance + radius);
+    Real low, high;
+    ordered_roots(at.slope_squared, dot(at.offset, at.slope), c, radius * radius, sqrt(discriminant), low, high);
+    return Interval(low, high, CURVED, CURVED);
+}
+
+// A tie at the rim goes to the body.
+Interval interval(Cylinder cylinder, AxisLine at) {
+    Interval slab = axial_slab(at, -cylinder.half_length, END, cylinder.half_length, END + 1u);
+    return intersection(body(cylinder, at), slab);
+}
+
+// Distance from a point inside to the surface; negative outside.
+Real depth(Cylinder cylinder, Real3 from_anchor) {
+    Real along = dot(from_anchor, cylinder.axis);
+    Real3 radial = from_anchor - along * cylinder.axis;
+    return min(cylinder.radius - sqrt(dot(radial, radial)), cylinder.half_length - abs(along));
+}
+
+Real size(Cylinder cylinder) { return cylinder.size; }
+
+// Outward unit normal and point of a face, kernel frame.
+void surface(Cylinder cylinder, AxisLine at, Real s, uint face, out Real3 point, out Real3 normal) {
+    Real3 radial = radial_at(at, s);
+    Real along = along_at(at, s);
+    if (face == CURVED) {
+        normal = unit(radial);
+        radial = cylinder.radius * normal;
+    } else {
+        normal = face == END ? -cylinder.axis : cylinder.axis;
+        along = face == END ? -cylinder.half_length : cylinder.half_length;
+    }
+    precise Real3 from_center = along * cylinder.axis + (radial + (along * cylinder.axis_error + cylinder.center_error));
+    precise Real3 on_face = cylinder.center + from_center;
+    point = on_face;
+}

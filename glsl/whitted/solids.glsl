@@ -1,0 +1,12 @@
+// Ray against solids: all that the kernel and its probe share.
+#include "real.glsl"
+#include "scene.glsl"
+#include "ray.glsl"
+#include "sphere.glsl"
+#include "box.glsl"
+#include "axis.glsl"
+#include "cylinder.glsl"
+#include "cone.glsl"
+#include "candidates.glsl"
+#include "nearest.glsl"
+#include "frame.glsl"

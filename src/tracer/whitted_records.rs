@@ -1,0 +1,279 @@
+//! The records of `glsl/whitted/scene.glsl`, filled from a scene.
+//!
+//! Every record is rows of four reals, so they are computed in `f64` here and, for the `f32` kernel, narrowed number by
+//! number. What an `f32` cannot hold and the kernel needs (an axis, the middle between two ends) is told as a number
+//! and its error.
+
+use bytemuck::{Pod, Zeroable};
+use glam::DVec3;
+
+use super::whitted::Precision;
+use crate::scene::{Camera, Light, Primitive, Projection, Scene, Solid, SolidKind, world_from_box};
+
+/// From the world frame to the kernel's: (world − origin)·scale, rounded once where `scale` is a power of two.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct KernelFrame {
+    /// World frame.
+    pub origin: DVec3,
+    pub scale: f64,
+}
+
+/// Lights farther than this many times the largest primitive are moved here along their direction: parallel light to
+/// the last bit of an `f64`, and no square of their distance overflows an `f32`.
+const FARTHEST_LIGHT: f64 = (1_u64 << 60) as f64;
+
+impl KernelFrame {
+    /// The world frame itself.
+    pub const WORLD: Self = Self { origin: DVec3::ZERO, scale: 1.0 };
+
+    /// With the camera at the origin, which its rays leave without rounding, and the farthest reach of a primitive
+    /// from there brought below 2 by a power of two: squares stay far from the ends of `f32` whatever the scene's unit.
+    pub fn of(scene: &Scene) -> Self {
+        let origin = scene.camera.position;
+        let reach = |primitive: &Primitive| {
+            let bound = Bound::of(&primitive.solid);
+            (bound.center - origin).abs().max_element() + bound.radius
+        };
+        let farthest = scene.primitives.iter().map(reach).fold(0.0, f64::max);
+        // From −1022 to 1022 the scale and its reciprocal are normal numbers.
+        let exponent = if farthest > 0.0 { farthest.log2().floor().clamp(-1022.0, 1022.0) } else { 0.0 };
+        Self { origin, scale: (-exponent).exp2() }
+    }
+
+    fn point(&self, world: DVec3) -> DVec3 {
+        (world - self.origin) * self.scale
+    }
+}
+
+/// A sphere around a solid, world frame.
+struct Bound {
+    center: DVec3,
+    radius: f64,
+}
+
+impl Bound {
+    fn of(solid: &Solid) -> Self {
+        match *solid {
+            Solid::Sphere { center, radius } => Self { center, radius },
+            Solid::Box { center, half_size, .. } => Self { center, radius: half_size.length() },
+            Solid::Cylinder { ends: [a, b], radius } => {
+                Self { center: a.midpoint(b), radius: radius.hypot(half_length(a, b)) }
+            }
+            Solid::Cone { apex, axis, height, half_angle_degrees } => {
+                // Through the apex and the base's rim; of a blunt cone, the base itself.
+                let base_radius = height * half_angle_degrees.to_radians().tan();
+                let radius = (height * height + base_radius * base_radius) / (2.0 * height);
+                let (radius, at) = if base_radius <= height { (radius, radius) } else { (base_radius, height) };
+                Self { center: apex + axis * at, radius }
+            }
+        }
+    }
+}
+
+fn half_length(a: DVec3, b: DVec3) -> f64 {
+    // Halved first: the difference of two numbers near the largest must not overflow.
+    (b * 0.5 - a * 0.5).length()
+}
+
+/// What the kernel's storage buffers hold, each as rows of four reals.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct WhittedRecords {
+    /// `View`, then the lights.
+    pub view_and_lights: Vec<[f64; 4]>,
+    pub bounds: Vec<[f64; 4]>,
+    pub spheres: Vec<[f64; 4]>,
+    pub boxes: Vec<[f64; 4]>,
+    pub cylinders: Vec<[f64; 4]>,
+    pub cones: Vec<[f64; 4]>,
+    pub materials: Vec<[f64; 4]>,
+    /// Spheres, boxes, cylinders, cones.
+    pub counts: [u32; 4],
+    pub light_count: u32,
+}
+
+/// Rows of a record of each kind, in the order of [`SolidKind::ALL`].
+const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
+
+impl WhittedRecords {
+    /// For a picture of `width`×`height` pixels; `precision` is that of the kernel.
+    pub fn of(scene: &Scene, frame: KernelFrame, precision: Precision, [width, height]: [u32; 2]) -> Self {
+        let mut records = Self::default();
+        records.view_and_lights.extend(view(scene, width, height));
+        records.view_and_lights.extend(scene.lights.iter().flat_map(|light| light_rows(light, frame)));
+        records.light_count = scene.lights.len() as u32;
+        for kind in SolidKind::ALL {
+            let of_kind = (0_u32..).zip(&scene.primitives).filter(|(_, primitive)| primitive.solid.kind() == kind);
+            for (index, primitive) in of_kind {
+                records.add(index, primitive, frame, precision);
+            }
+        }
+        records
+    }
+
+    fn add(&mut self, index: u32, primitive: &Primitive, frame: KernelFrame, precision: Precision) {
+        let bound = Bound::of(&primitive.solid);
+        // Below that, squares leave the kernel's range; against the scene it is nothing that a pixel could show.
+        if bound.radius * frame.scale < precision.smallest_length() {
+            return;
+        }
+        // The kernel's reject allows for its own rounding; here are rounded the sum, the square root and the centre.
+        let center = frame.point(bound.center);
+        let spare = 4.0 * precision.unit_roundoff() * (bound.radius * frame.scale + center.abs().max_element());
+        self.bounds.push([center.x, center.y, center.z, bound.radius * frame.scale + spare]);
+        let kind = primitive.solid.kind();
+        let rows = solid_rows(&primitive.solid, frame, precision);
+        match kind {
+            SolidKind::Sphere => self.spheres.extend(rows),
+            SolidKind::Box => self.boxes.extend(rows),
+            SolidKind::Cylinder => self.cylinders.extend(rows),
+            SolidKind::Cone => self.cones.extend(rows),
+        }
+        self.counts[kind as usize] += 1;
+        let material = &primitive.material;
+        self.materials.extend([
+            row(material.color, material.ambient),
+            [material.diffuse, material.specular, f64::from(index), 0.0],
+        ]);
+    }
+
+    /// The buffers in the order of their bindings, with their names.
+    pub fn buffers(&self) -> [(&'static str, &[[f64; 4]]); 7] {
+        [
+            ("view and lights", &self.view_and_lights),
+            ("bounds", &self.bounds),
+            ("spheres", &self.spheres),
+            ("boxes", &self.boxes),
+            ("cylinders", &self.cylinders),
+            ("cones", &self.cones),
+            ("materials", &self.materials),
+        ]
+    }
+
+    /// Solids of each kind, by the length of their arrays.
+    pub fn solid_counts(&self) -> [usize; 4] {
+        let rows = [self.spheres.len(), self.boxes.len(), self.cylinders.len(), self.cones.len()];
+        std::array::from_fn(|kind| rows[kind] / SOLID_ROWS[kind])
+    }
+}
+
+fn row(vector: DVec3, fourth: f64) -> [f64; 4] {
+    [vector.x, vector.y, vector.z, fourth]
+}
+
+/// `Sphere`, `Box`, `Cylinder` or `Cone`.
+fn solid_rows(solid: &Solid, frame: KernelFrame, precision: Precision) -> Vec<[f64; 4]> {
+    let scale = frame.scale;
+    match *solid {
+        Solid::Sphere { center, radius } => vec![row(frame.point(center), radius * scale)],
+        Solid::Box { center, half_size, rotation_degrees } => {
+            let axes = world_from_box(rotation_degrees);
+            let [x, y, z] = [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| precision.split((axis, DVec3::ZERO)));
+            let half_size = half_size * scale;
+            vec![
+                row(frame.point(center), half_size.max_element()),
+                row(x.0, half_size.x),
+                row(y.0, half_size.y),
+                row(z.0, half_size.z),
+                row(x.1, 0.0),
+                row(y.1, 0.0),
+                row(z.1, 0.0),
+            ]
+        }
+        Solid::Cylinder { ends: [a, b], radius } => {
+            let (half_a, half_b) = (frame.point(a) * 0.5, frame.point(b) * 0.5);
+            let (center, center_error) = precision.split(two_sum(half_a, half_b));
+            let half_axis = two_sum(half_b, -half_a);
+            let half_length = half_axis.0.length();
+            let (axis, axis_error) = precision.split(unit(half_axis));
+            let radius = radius * scale;
+            vec![
+                row(center, radius),
+                row(center_error, half_length),
+                row(axis, radius.max(half_length)),
+                row(axis_error, radius.hypot(half_length)),
+            ]
+        }
+        Solid::Cone { apex, axis, height, half_angle_degrees } => {
+            let (sine, cosine) = half_angle_degrees.to_radians().sin_cos();
+            let (axis, axis_error) = precision.split(unit((axis, DVec3::ZERO)));
+            let height = height * scale;
+            let base_radius = height * sine / cosine;
+            vec![
+                row(frame.point(apex), height),
+                row(axis, height.max(base_radius)),
+                row(axis_error, height.hypot(base_radius)),
+                [sine, cosine, 0.0, 0.0],
+            ]
+        }
+    }
+}
+
+/// a + b and what its rounding lost (Knuth's TwoSum).
+fn two_sum(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
+    let sum = a + b;
+    let b_part = sum - a;
+    (sum, (a - (sum - b_part)) + (b - b_part))
+}
+
+/// The unit vector along value + error, and what its rounding lost.
+fn unit((value, error): (DVec3, DVec3)) -> (DVec3, DVec3) {
+    // Scaled by a power of two, so that no square leaves the range of `f64`.
+    let scale = (-value.abs().max_element().log2().floor().clamp(-1022.0, 1022.0)).exp2();
+    let (value, error) = (value * scale, error * scale);
+    let length = value.length();
+    let square_error = |x: f64| x.mul_add(x, -(x * x));
+    let squares = value * value;
+    // |value|² − length², each product and each sum with its error.
+    let (xy, xy_error) = two_sum(DVec3::splat(squares.x), DVec3::splat(squares.y));
+    let (xyz, xyz_error) = two_sum(xy, DVec3::splat(squares.z));
+    let lost: f64 = value.to_array().map(square_error).iter().sum();
+    let missing = (xyz.x - length * length) - square_error(length) + (lost + xy_error.x + xyz_error.x);
+    let length_error = (missing / 2.0 + value.dot(error)) / length;
+    let unit = value / length;
+    let rest = DVec3::new(
+        (-unit.x).mul_add(length, value.x),
+        (-unit.y).mul_add(length, value.y),
+        (-unit.z).mul_add(length, value.z),
+    );
+    (unit, (rest + error - unit * length_error) / length)
+}
+
+/// `Light`
+fn light_rows(light: &Light, frame: KernelFrame) -> [[f64; 4]; 2] {
+    let position = frame.point(light.position);
+    let nearer = (FARTHEST_LIGHT / position.abs().max_element()).min(1.0);
+    // The ball keeps the angle under which the camera sees it.
+    [row(position * nearer, Light::BALL_RADIUS * frame.scale * nearer), row(light.intensity, 0.0)]
+}
+
+/// `View`
+fn view(scene: &Scene, width: u32, height: u32) -> [[f64; 4]; 4] {
+    let Camera { direction, up, vertical_fov_degrees, projection, .. } = scene.camera;
+    let unit = |vector| unit((vector, DVec3::ZERO)).0;
+    let ahead = unit(direction);
+    let left = unit(unit(up).cross(ahead));
+    let half_height = (vertical_fov_degrees.to_radians() / 2.0).tan();
+    let half_width = half_height * f64::from(width) / f64::from(height);
+    let window_low = match projection {
+        Projection::Centered => 0.0,
+        Projection::Course => -1.0,
+    };
+    [row(left, half_width), row(ahead.cross(left), half_height), row(ahead, window_low), row(scene.background, 0.0)]
+}
+
+/// `WhittedFrame`: the push constants.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+pub struct WhittedFrame {
+    /// Spheres, boxes, cylinders, cones.
+    pub counts: [u32; 4],
+    /// Pixels, x | y << 16.
+    pub tile_origin: u32,
+    /// Pixels, width | height << 16.
+    pub image_size: u32,
+    /// Generations to trace.
+    pub depth: u32,
+    pub light_count: u32,
+    /// Not 0: the picture is what each colour loses by rounding to `f32`.
+    pub writes_remainder: u32,
+}

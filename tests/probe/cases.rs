@@ -1,0 +1,143 @@
+//! Random solids and rays in numbers that a precision stores exactly, and how far a point is from a solid.
+
+use glam::DVec3;
+use zerkalo::reference::{Departure, Hit, Ray, Solids};
+use zerkalo::scene::{Solid, SolidKind, world_from_box};
+use zerkalo::tracer::Precision;
+
+use super::{From, ProbeRay, stored, stored_vector};
+use crate::oracle::random::{Random, middle};
+use crate::oracle::{primitive, size};
+
+/// Largest distance of a ray's origin from the solid, in sizes: DS of the catalogue ends there, and so do the digits of
+/// a number with its error.
+const FARTHEST: f64 = 1e7;
+
+/// A solid with its reference.
+pub struct Case {
+    pub solid: Solid,
+    pub size: f64,
+    reference: Solids,
+}
+
+impl Case {
+    /// Any pose and proportion, every number as the precision stores it.
+    pub fn random(random: &mut Random, kind: SolidKind, precision: Precision) -> Self {
+        let number = |value| stored(precision, value);
+        let vector = |value| stored_vector(precision, value);
+        let solid = loop {
+            let solid = match random.solid(kind) {
+                Solid::Sphere { center, radius } => Solid::Sphere { center: vector(center), radius: number(radius) },
+                Solid::Box { center, half_size, rotation_degrees } => {
+                    Solid::Box { center: vector(center), half_size: vector(half_size), rotation_degrees }
+                }
+                Solid::Cylinder { ends, radius } => Solid::Cylinder { ends: ends.map(vector), radius: number(radius) },
+                Solid::Cone { apex, axis, height, half_angle_degrees } => {
+                    Solid::Cone { apex: vector(apex), axis, height: number(height), half_angle_degrees }
+                }
+            };
+            if !matches!(solid, Solid::Cylinder { ends: [a, b], .. } if a == b) {
+                break solid;
+            }
+        };
+        Self { size: size(&solid), reference: Solids::new(&[primitive(solid.clone())]), solid }
+    }
+
+    /// By the reference.
+    pub fn cast(&self, ray: &ProbeRay, departure: Departure) -> Option<Hit> {
+        self.reference.nearest(&Ray { origin: ray.origin, direction: ray.direction }, departure)
+    }
+
+    /// A fan of rays from one origin: every second one within 10⁻² of the silhouette, down to the precision's last bit,
+    /// which is told.
+    pub fn fan(&self, random: &mut Random, precision: Precision, index: usize, count: u32) -> Vec<(ProbeRay, bool)> {
+        let middle = middle(&self.solid);
+        let origin = loop {
+            let distance = match random.uniform(0.0, 6.0) {
+                inside if inside < 1.0 => inside * random.magnitude(-3.0, 0.0),
+                near if near < 3.0 => random.magnitude(-2.0, 3.0),
+                _ => random.magnitude(0.0, FARTHEST.log10()),
+            };
+            let origin = stored_vector(precision, middle + random.unit_vector() * self.size * distance);
+            if (origin - middle).length() <= FARTHEST * self.size {
+                break origin;
+            }
+        };
+        let towards = |target: DVec3| {
+            let direction = stored_vector(precision, (target - origin).normalize());
+            ProbeRay { origin, direction, solid: index, from: From::Space }
+        };
+        let around = random.unit_vector();
+        let sideways = (middle - origin).cross(around).normalize() * 4.0 * self.size;
+        let silhouette = self.silhouette(|offset| towards(middle + sideways * offset));
+        let closest = precision.unit_roundoff().log10();
+        let mut rays = Vec::new();
+        while rays.len() < count as usize {
+            let is_near = random.chance(0.5);
+            let target = if is_near {
+                middle + sideways * (silhouette * (1.0 + random.signed_magnitude(closest, -2.0)))
+            } else {
+                middle + random.unit_vector() * self.size * random.uniform(0.0, 1.2)
+            };
+            let ray = towards(target);
+            if ray.direction.is_finite() {
+                rays.push((ray, is_near));
+            }
+        }
+        rays
+    }
+
+    fn silhouette(&self, ray_at: impl Fn(f64) -> ProbeRay) -> f64 {
+        let (mut hits, mut misses) = (0.0, 1.0);
+        for _ in 0..50 {
+            let middle = 0.5 * (hits + misses);
+            if self.cast(&ray_at(middle), Departure::Free).is_some() {
+                hits = middle;
+            } else {
+                misses = middle;
+            }
+        }
+        hits
+    }
+
+    /// Distance from the surface in plain `f64`, which is enough to judge an `f32`: from inside and near the surface
+    /// exactly, from elsewhere at most. The point is origin + path, summed only beside the solid: far from the world's
+    /// origin an `f64` does not hold it.
+    pub fn distance(&self, origin: DVec3, path: DVec3) -> f64 {
+        let from = |place: DVec3| (origin - place) + path;
+        match self.solid {
+            Solid::Sphere { center, radius } => (from(center).length() - radius).abs(),
+            Solid::Box { center, half_size, rotation_degrees } => {
+                let above = (world_from_box(rotation_degrees).transpose() * from(center)).abs() - half_size;
+                outside_or_inside(&above.to_array())
+            }
+            Solid::Cylinder { ends: [a, b], radius } => {
+                let axis = (b - a).normalize();
+                let (from_a, length) = (from(a), (b - a).length());
+                let along = from_a.dot(axis);
+                let radial = (from_a - axis * along).length();
+                outside_or_inside(&[radial - radius, (along - length / 2.0).abs() - length / 2.0])
+            }
+            Solid::Cone { apex, axis, height, half_angle_degrees } => {
+                let from_apex = from(apex);
+                let along = from_apex.dot(axis);
+                let radial = (from_apex - axis * along).length();
+                let (sin, cos) = half_angle_degrees.to_radians().sin_cos();
+                let beyond_apex = along * cos + radial * sin < 0.0;
+                let side = if beyond_apex { from_apex.length() } else { radial * cos - along * sin };
+                let base = if radial > height * sin / cos && along > height {
+                    (radial - height * sin / cos).hypot(along - height)
+                } else {
+                    along - height
+                };
+                if side <= 0.0 && base <= 0.0 { side.max(base).abs() } else { side.max(base) }
+            }
+        }
+    }
+}
+
+/// From the signed distances to convex faces at right angles to each other.
+fn outside_or_inside(above: &[f64]) -> f64 {
+    let largest = above.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if largest <= 0.0 { -largest } else { above.iter().map(|a| a.max(0.0).powi(2)).sum::<f64>().sqrt() }
+}

@@ -1,0 +1,222 @@
+//! The accurate kernel's pictures against the reference's, by the bars of NUMERICS.md.
+
+mod common;
+mod scenes;
+
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use common::TestDevice;
+use glam::DVec3;
+use scenes::{mixed_scene, picture};
+use zerkalo::reference::{Image64, LIGHT_BALL};
+use zerkalo::scene::{Projection, Scene, Solid, gallery};
+use zerkalo::tracer::{Kernel, Precision, Settings, Tracer};
+
+const SIZE: [u32; 2] = [88, 38];
+
+/// Linear RGB in `f64`: of the `f64` kernel the colour and what it lost by rounding to `f32`.
+fn kernel_picture(device: &TestDevice, scene: &Scene, precision: Precision, [width, height]: [u32; 2]) -> Vec<DVec3> {
+    let settings = Settings { kernel: Kernel::Whitted(precision), ..Settings::new(width, height) };
+    let mut tracer = Tracer::new(device, scene, &settings).unwrap();
+    let mut sum = vec![DVec3::ZERO; (width * height) as usize];
+    for remainder in [false, true] {
+        tracer.draw_remainder(remainder);
+        let mut frame = tracer.frame().unwrap();
+        tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())).unwrap();
+        for (sum, pixel) in sum.iter_mut().zip(frame.pixels()) {
+            *sum += DVec3::from_array(pixel.map(f64::from));
+        }
+    }
+    sum
+}
+
+/// Where the reference's path differs from a neighbour's, corners included.
+fn discontinuities(image: &Image64) -> Vec<bool> {
+    let (width, height) = (image.width as usize, image.height as usize);
+    let differs = |index: usize| {
+        let (x, y) = (index % width, index / width);
+        let rows = y.saturating_sub(1)..=(y + 1).min(height - 1);
+        let mut around = rows.flat_map(|row| {
+            let columns = x.saturating_sub(1)..=(x + 1).min(width - 1);
+            columns.map(move |column| row * width + column)
+        });
+        around.any(|neighbour| image.pixels[neighbour].path != image.pixels[index].path)
+    };
+    (0..image.pixels.len()).map(differs).collect()
+}
+
+#[derive(Debug, Default, Clone, Copy)]
+struct Difference {
+    /// Largest difference of a channel off discontinuities.
+    largest: f64,
+    /// Pixels.
+    smooth: usize,
+    discontinuities: usize,
+    /// Discontinuity pixels that differ by more than the bar.
+    differing: usize,
+    not_finite: usize,
+    solid: usize,
+}
+
+impl Difference {
+    fn plus(self, other: Self) -> Self {
+        Self {
+            largest: self.largest.max(other.largest),
+            smooth: self.smooth + other.smooth,
+            discontinuities: self.discontinuities + other.discontinuities,
+            differing: self.differing + other.differing,
+            not_finite: self.not_finite + other.not_finite,
+            solid: self.solid + other.solid,
+        }
+    }
+
+    /// Over the pixels that `is_counted`, by their number.
+    fn between(truth: &Image64, ours: &[DVec3], bar: f64, is_counted: impl Fn(usize) -> bool) -> Self {
+        let mut difference = Self::default();
+        let discontinuities = discontinuities(truth);
+        for (index, (pixel, &color)) in
+            truth.pixels.iter().zip(ours).enumerate().filter(|&(index, _)| is_counted(index))
+        {
+            let error = (pixel.color - color).abs().max_element();
+            difference.not_finite += usize::from(!color.is_finite());
+            difference.solid += usize::from(pixel.first_hit < LIGHT_BALL);
+            if discontinuities[index] {
+                difference.discontinuities += 1;
+                difference.differing += usize::from(error > bar || error.is_nan());
+            } else {
+                difference.smooth += 1;
+                // A NaN would be passed over.
+                difference.largest = difference.largest.max(if error.is_nan() { f64::INFINITY } else { error });
+            }
+        }
+        difference
+    }
+}
+
+/// The bars: off discontinuities, and the share of discontinuity pixels that may differ by more than that.
+fn bars(precision: Precision) -> (f64, f64) {
+    match precision {
+        Precision::F32 => (1.0 / 510.0, 1e-3),
+        Precision::F64 => (1e-9, 1e-6),
+    }
+}
+
+fn golden_scenes() -> Vec<(String, Scene)> {
+    let goldens = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/goldens");
+    let mut folders: Vec<_> = fs::read_dir(goldens).unwrap().map(|entry| entry.unwrap().path()).collect();
+    folders.sort();
+    let scene = |folder: &Path| Scene::load(&folder.join("scene.json")).unwrap();
+    folders.iter().map(|folder| (folder.file_name().unwrap().to_string_lossy().into_owned(), scene(folder))).collect()
+}
+
+fn gallery_scenes() -> Vec<(String, Scene)> {
+    let scene = |name: String| (name.clone(), gallery::scene(&name).unwrap());
+    gallery::entries().iter().map(|entry| scene(entry.name.clone())).collect()
+}
+
+fn every_picture_is_the_references(scenes: Vec<(String, Scene)>) {
+    let device = TestDevice::open();
+    for projection in Projection::ALL {
+        let mut totals = [Difference::default(); 2];
+        for (name, scene) in &scenes {
+            let mut scene = scene.clone();
+            scene.camera.projection = projection;
+            let truth = picture(&scene, SIZE[0], SIZE[1]);
+            for (total, precision) in totals.iter_mut().zip([Precision::F32, Precision::F64]) {
+                let (bar, _) = bars(precision);
+                let ours = kernel_picture(&device, &scene, precision, SIZE);
+                let difference = Difference::between(&truth, &ours, bar, |_| true);
+                if difference.largest > bar || difference.differing > 0 {
+                    println!("{name}, {}, {}: {difference:?}", projection.name(), precision.name());
+                }
+                *total = total.plus(difference);
+            }
+        }
+        for (total, precision) in totals.into_iter().zip([Precision::F32, Precision::F64]) {
+            println!("{} scenes, {}, {}: {total:?}", scenes.len(), projection.name(), precision.name());
+            let (largest, share) = bars(precision);
+            assert_eq!(total.not_finite, 0);
+            assert!(total.largest <= largest);
+            assert!(total.differing as f64 <= share * total.discontinuities as f64);
+            assert!(total.discontinuities > 5_000 && total.smooth > 20_000 && total.solid > 10_000);
+        }
+    }
+}
+
+#[test]
+fn every_gallery_scene_looks_as_the_reference_sees_it() {
+    every_picture_is_the_references(gallery_scenes());
+}
+
+#[test]
+fn every_goldens_scene_looks_as_the_reference_sees_it() {
+    every_picture_is_the_references(golden_scenes());
+}
+
+fn moved_and_scaled(scene: &Scene, shift: DVec3, scale: f64) -> Scene {
+    let place = |point: DVec3| shift + point * scale;
+    let mut scene = scene.clone();
+    scene.camera.position = place(scene.camera.position);
+    for light in &mut scene.lights {
+        light.position = place(light.position);
+    }
+    for primitive in &mut scene.primitives {
+        match &mut primitive.solid {
+            Solid::Sphere { center, radius } => (*center, *radius) = (place(*center), *radius * scale),
+            Solid::Box { center, half_size, .. } => (*center, *half_size) = (place(*center), *half_size * scale),
+            Solid::Cylinder { ends, radius } => (*ends, *radius) = (ends.map(place), *radius * scale),
+            Solid::Cone { apex, height, .. } => (*apex, *height) = (place(*apex), *height * scale),
+        }
+    }
+    scene
+}
+
+/// Only pixels that show solids in both: the light's ball has one size in every scene.
+#[test]
+fn a_scene_scaled_by_a_million_or_moved_by_1e5_of_its_size_looks_the_same() {
+    let device = TestDevice::open();
+    let scene = mixed_scene();
+    let [width, height] = [160, 100];
+    let original = picture(&scene, width, height);
+    // The scene's size is about 10.
+    let moves = [
+        ("×1e-6", moved_and_scaled(&scene, DVec3::ZERO, 1e-6)),
+        ("×1e6", moved_and_scaled(&scene, DVec3::ZERO, 1e6)),
+        ("+1e6", moved_and_scaled(&scene, DVec3::new(1e6, -1e6, 1e6), 1.0)),
+    ];
+    for (name, moved) in &moves {
+        let truth = picture(moved, width, height);
+        for precision in [Precision::F32, Precision::F64] {
+            let (largest, share) = bars(precision);
+            let ours = kernel_picture(&device, moved, precision, [width, height]);
+            let shows_solid = |index: usize| {
+                truth.pixels[index].first_hit < LIGHT_BALL && original.pixels[index].first_hit < LIGHT_BALL
+            };
+            for (image, of) in [(&truth, "the same scene's reference"), (&original, "the original's")] {
+                let difference = Difference::between(image, &ours, largest, shows_solid);
+                println!("{name} {} against {of}: {difference:?}", precision.name());
+                assert!(difference.solid > 3_500 && difference.discontinuities > 1_000);
+                assert_eq!(difference.not_finite, 0);
+                assert!(difference.largest <= largest);
+                assert!(difference.differing as f64 <= share * difference.discontinuities as f64);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_scene_scaled_by_a_power_of_two_gives_the_same_bits() {
+    let device = TestDevice::open();
+    let mut scene = mixed_scene();
+    // The camera stays outside of the balls, which have one size in every scene.
+    scene.lights.iter_mut().for_each(|light| light.position *= 1e4);
+    for precision in [Precision::F32, Precision::F64] {
+        let original = kernel_picture(&device, &scene, precision, SIZE);
+        for exponent in [-20, -1, 1, 20] {
+            let scaled = moved_and_scaled(&scene, DVec3::ZERO, 2f64.powi(exponent));
+            assert!(kernel_picture(&device, &scaled, precision, SIZE) == original, "2^{exponent}");
+        }
+    }
+}
