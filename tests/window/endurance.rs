@@ -28,7 +28,7 @@ fn five_hundred_edits_and_fifty_resizes_leave_no_memory_behind() {
     window.click("Следующий примитив");
     window.wait_until("the sphere is selected", |now| now.selection == Some(0));
     // Caches fill, and the allocator comes to know what is needed.
-    edit_and_resize(&mut window, 100, 15);
+    edit_and_resize(&mut window, 100, 40);
     let before = window.resident_kib();
     edit_and_resize(&mut window, 500, 50);
     let after = window.resident_kib();

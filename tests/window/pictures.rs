@@ -77,6 +77,7 @@ fn a_screenshot_is_taken_while_picture_follows_picture() {
     let mut window = desk.view(&["four"]);
     let size = window.now().picture_size;
     window.click("Непрерывная трассировка");
+    window.wait_until("it is on", |now| now.value("Непрерывная трассировка") == "True");
     window.key("F12");
     window.type_into("Имя файла", "moving.exr");
     window.wait_until("the dialog closes", |now| now.dialog.is_none());

@@ -12,6 +12,9 @@ use super::window::Window;
 /// A widget that is not moving is at the same place after so long: three frames at 60 Hz.
 const STILL: Duration = Duration::from_millis(50);
 
+/// The panel glides to where it is scrolled to; on a busy machine there may be long pauses on the way.
+const SCROLLING: Duration = Duration::from_millis(400);
+
 /// From the panel's upper and lower edge to the middle of a widget that can be clicked, pixels.
 const MARGIN: f64 = 6.0;
 
@@ -127,6 +130,7 @@ impl Window<'_> {
             self.move_mouse([left + 12.0, middle]);
             let notches = (y - middle) / PIXELS_PER_NOTCH;
             self.wheel(notches.clamp(-20.0, 20.0).round() as i32);
+            thread::sleep(SCROLLING);
         }
         is_in_sight
     }
