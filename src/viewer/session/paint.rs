@@ -107,8 +107,9 @@ impl Session {
         self.take_screenshots()?;
         self.show_title();
         self.observe(observation);
-        if self.is_whole() != is_whole_before {
-            // The widgets have told of what was.
+        let is_next_due = self.state.is_continuous && self.state.kernel == Kernel::Course && self.is_whole();
+        if self.is_whole() != is_whole_before || is_next_due {
+            // The widgets have told of what was, or a screenshot has held up the next picture.
             self.wake();
         }
         Ok(())
