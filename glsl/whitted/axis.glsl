@@ -53,6 +53,15 @@ Real along_at(AxisLine at, Real s) {
     return along;
 }
 
+// One step of Newton's towards a plane across the axis, with the distance from it rounded about once: far from its
+// place the slab's quotient has lost some u of the reach.
+Real nearer_to_plane(AxisLine at, Real3 axis, Real3 axis_error, Real plane, Real s) {
+    Sum3 place = add_scaled(at.line.closest, s, at.line.direction, Real3(0.0));
+    precise Real beyond = exact_dot(axis, axis_error, place) - plane;
+    precise Real corrected = s - beyond / at.along_slope;
+    return corrected;
+}
+
 // The axial slab [low, high].
 Interval axial_slab(AxisLine at, Real low, uint low_face, Real high, uint high_face) {
     return between_planes(at.along, at.along_slope, low, low_face, high, high_face);

@@ -69,8 +69,10 @@ Interval interval(Cone cone, AxisLine at) {
     Interval slab = axial_slab(at, Real(0.0), CURVED, cone.height, BASE);
     Interval inside = intersection(nappe(cone, at), slab);
     Real length = inside.far - inside.near;
-    if (inside.near_face == CURVED) inside.near = nearer_to_side(cone, at, inside.near, length);
-    if (inside.far_face == CURVED) inside.far = nearer_to_side(cone, at, inside.far, length);
+    inside.near = inside.near_face == CURVED ? nearer_to_side(cone, at, inside.near, length)
+                                             : nearer_to_plane(at, cone.axis, cone.axis_error, cone.height, inside.near);
+    inside.far = inside.far_face == CURVED ? nearer_to_side(cone, at, inside.far, length)
+                                           : nearer_to_plane(at, cone.axis, cone.axis_error, cone.height, inside.far);
     return inside;
 }
 

@@ -20,10 +20,18 @@ Interval body(Cylinder cylinder, AxisLine at) {
     return Interval(low, high, CURVED, CURVED);
 }
 
+Real nearer_to_base(Cylinder cylinder, AxisLine at, uint face, Real s) {
+    Real plane = face == END ? -cylinder.half_length : cylinder.half_length;
+    return nearer_to_plane(at, cylinder.axis, cylinder.axis_error, plane, s);
+}
+
 // A tie at the rim goes to the body.
 Interval interval(Cylinder cylinder, AxisLine at) {
     Interval slab = axial_slab(at, -cylinder.half_length, END, cylinder.half_length, END + 1u);
-    return intersection(body(cylinder, at), slab);
+    Interval inside = intersection(body(cylinder, at), slab);
+    if (inside.near_face != CURVED) inside.near = nearer_to_base(cylinder, at, inside.near_face, inside.near);
+    if (inside.far_face != CURVED) inside.far = nearer_to_base(cylinder, at, inside.far_face, inside.far);
+    return inside;
 }
 
 // Distance from a point inside to the surface; negative outside.

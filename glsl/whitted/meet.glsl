@@ -15,9 +15,9 @@ bool meet(SOLID solid, Ray ray, uint origin, uint own_face, out Hit hit) {
     hit.face = hit.inside ? inside.far_face : inside.near_face;
     bool is_ahead = is_met && hit.t > 0.0;
     if (hit.inside && origin != OWN_INSIDE) {
-        // Depth is concave along a chord: at its middle it is at least half of the greatest. A free origin is exact,
-        // so that a chord twice as deep as the error counts.
-        Real least_depth = origin == FREE ? 0.5 * position_error : position_error;
+        // Depth is concave along a chord: at its middle it is at least half of the greatest. A free origin is exact: a
+        // chord deeper than the error counts, less what the depth itself is off.
+        Real least_depth = origin == FREE ? 0.25 * position_error : position_error;
         Real start = max(inside.near, -line_start(at.line));
         Real3 middle = at.line.closest.value + (0.5 * (start + inside.far)) * at.line.direction;
         is_ahead = is_ahead && depth(solid, middle) > least_depth;

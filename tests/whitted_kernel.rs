@@ -1,0 +1,157 @@
+//! What the accurate kernel takes, refuses and survives.
+
+mod common;
+mod scenes;
+
+use common::{TestDevice, render};
+use glam::DVec3;
+use scenes::{light, material, mirror, mixed_scene, primitive, sphere};
+use zerkalo::frame::Frame;
+use zerkalo::scene::{Camera, Light, Scene, Solid, gallery};
+use zerkalo::tracer::{Kernel, Precision, Settings, Tracer};
+
+const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
+
+fn settings(precision: Precision, width: u32, height: u32) -> Settings {
+    Settings { kernel: Kernel::Whitted(precision), ..Settings::new(width, height) }
+}
+
+fn is_finite(frame: &Frame) -> bool {
+    frame.pixels().iter().flatten().all(|channel| channel.is_finite())
+}
+
+#[test]
+fn tiles_and_workgroups_change_no_bit() {
+    let device = TestDevice::open();
+    for precision in PRECISIONS {
+        let usual = settings(precision, 151, 67);
+        let whole = render(&device, &mixed_scene(), &usual);
+        for (max_tile_side, workgroup) in [(64, [8, 8]), (33, [3, 5])] {
+            let other = render(&device, &mixed_scene(), &Settings { max_tile_side, workgroup, ..usual.clone() });
+            assert!(other == whole, "tiles of {max_tile_side}, workgroups of {workgroup:?}");
+        }
+    }
+}
+
+#[test]
+fn a_scene_of_nothing_is_its_background_and_a_thousand_spheres_are_drawn() {
+    let device = TestDevice::open();
+    for precision in PRECISIONS {
+        let empty = Scene { lights: vec![], background: DVec3::new(0.1, 0.2, 0.3), ..Scene::default() };
+        let frame = render(&device, &empty, &settings(precision, 16, 8));
+        assert!(frame.pixels().iter().all(|&pixel| pixel == [0.1, 0.2, 0.3]));
+
+        let mut many = Scene { background: DVec3::ZERO, ..gallery::scene("grid-sphere-100").unwrap() };
+        let last = many.primitives.last().unwrap().clone();
+        many.primitives.resize(10_000, last);
+        assert!(render(&device, &many, &settings(precision, 32, 14)).pixels().iter().any(|&pixel| pixel != [0.0; 3]));
+    }
+}
+
+#[test]
+fn a_scene_larger_than_a_storage_buffer_is_refused_in_one_line() {
+    let device = TestDevice::open();
+    let limit = device.description().max_storage_bytes;
+    // A sphere's record is the smallest: four doubles.
+    let count = usize::try_from(limit / 32 + 1).unwrap();
+    if count > 1 << 23 {
+        println!("this device sees {limit} B at once: no scene of spheres is refused");
+        return;
+    }
+    let scene = Scene { primitives: vec![primitive(sphere(DVec3::Z, 1.0), mirror()); count], ..Scene::default() };
+    let Err(error) = Tracer::new(&device, &scene, &settings(Precision::F64, 8, 8)) else { panic!("it was accepted") };
+    assert!(error.is_input_error());
+    let line = error.to_string();
+    assert!(!line.contains('\n') && line.contains("too large") && line.contains(&limit.to_string()), "{line}");
+}
+
+#[test]
+fn mr_no_ray_escapes_from_a_closed_room_of_mirrors() {
+    let device = TestDevice::open();
+    let slanted = DVec3::new(0.48, 0.6, 0.64);
+    let rooms = [
+        Solid::Box {
+            center: DVec3::ZERO,
+            half_size: DVec3::splat(3.0),
+            rotation_degrees: DVec3::new(10.0, 20.0, 30.0),
+        },
+        sphere(DVec3::new(0.1, 0.2, 0.3), 3.0),
+        Solid::Cylinder { ends: [-3.0 * slanted, 3.0 * slanted], radius: 3.0 },
+        Solid::Cone { apex: -3.0 * slanted, axis: slanted, height: 8.0, half_angle_degrees: 50.0 },
+    ];
+    for precision in PRECISIONS {
+        for room in &rooms {
+            let scene = Scene {
+                camera: Camera {
+                    vertical_fov_degrees: 120.0,
+                    position: DVec3::new(0.1, 0.2, 0.3),
+                    ..Camera::default()
+                },
+                background: DVec3::ONE,
+                lights: vec![],
+                max_depth: 200,
+                primitives: vec![primitive(room.clone(), mirror()), primitive(sphere(DVec3::X, 0.3), mirror())],
+            };
+            let frame = render(&device, &scene, &settings(precision, 48, 48));
+            let escaped = frame.pixels().iter().filter(|&&pixel| pixel != [0.0; 3]).count();
+            assert_eq!(escaped, 0, "{} of {room:?}", precision.name());
+        }
+    }
+}
+
+#[test]
+fn it_intensities_up_to_the_largest_f32_stay_finite() {
+    let device = TestDevice::open();
+    for precision in PRECISIONS {
+        for intensity in [1e30, 3e38, f64::from(f32::MAX)] {
+            let mut scene = mixed_scene();
+            scene.background = DVec3::splat(intensity);
+            scene.lights.iter_mut().for_each(|light| light.intensity = DVec3::splat(intensity));
+            scene.primitives.iter_mut().for_each(|primitive| primitive.material = material(1.0, 1.0, 1.0));
+            let frame = render(&device, &scene, &settings(precision, 64, 48));
+            assert!(is_finite(&frame), "{} at {intensity:e}", precision.name());
+            assert!(frame.pixels().iter().any(|pixel| f64::from(pixel[0]) >= 0.99 * intensity));
+        }
+    }
+}
+
+#[test]
+fn lt_a_light_inside_a_solid_or_on_a_surface_gives_finite_pixels() {
+    let device = TestDevice::open();
+    let cube = Solid::Box { center: DVec3::ZERO, half_size: DVec3::ONE, rotation_degrees: DVec3::ZERO };
+    for precision in PRECISIONS {
+        for position in [DVec3::ZERO, DVec3::new(0.0, 0.0, -1.0), DVec3::new(0.2, 0.1, -1.0 - 1e-9)] {
+            let scene = Scene {
+                camera: Camera { position: DVec3::NEG_Z * 6.0, ..Camera::default() },
+                lights: vec![Light { position, intensity: DVec3::ONE }, light(3.0, 3.0, -9.0)],
+                primitives: vec![primitive(cube.clone(), material(0.1, 0.5, 0.5))],
+                ..Scene::default()
+            };
+            assert!(is_finite(&render(&device, &scene, &settings(precision, 65, 65))), "{position}");
+        }
+    }
+}
+
+#[test]
+fn fv_the_narrowest_and_the_widest_views_give_finite_pixels() {
+    let device = TestDevice::open();
+    for precision in PRECISIONS {
+        for vertical_fov_degrees in [1e-6_f64.to_degrees(), 179.999] {
+            let mut scene = mixed_scene();
+            scene.camera.vertical_fov_degrees = vertical_fov_degrees;
+            assert!(is_finite(&render(&device, &scene, &settings(precision, 33, 17))), "{vertical_fov_degrees}°");
+        }
+    }
+}
+
+#[test]
+fn solids_too_small_for_the_precision_give_finite_pixels() {
+    let device = TestDevice::open();
+    for precision in PRECISIONS {
+        for radius in [1e-12, 1e-30, f64::MIN_POSITIVE / 16.0] {
+            let mut scene = mixed_scene();
+            scene.primitives.push(primitive(sphere(DVec3::NEG_Z * 5.0, radius), mirror()));
+            assert!(is_finite(&render(&device, &scene, &settings(precision, 33, 33))), "{radius:e}");
+        }
+    }
+}
