@@ -48,9 +48,11 @@ impl Messages {
 }
 
 /// Messages that are no fault, each by a part of its id, and why.
-const NO_FAULT: [&str; 1] = [
+const NO_FAULT: [&str; 2] = [
     // Debug names and the layer's own settings are for debugging, as it says; they are on for that.
     "specialuse-extension-debugging",
+    // A window resized between two looks at its size: the picture is shown, and the next frame's swapchain fits again.
+    "BestPractices-SuboptimalSwapchain",
 ];
 
 /// # Safety
