@@ -1,6 +1,7 @@
-//! One run of the window: what it knows, and what happens to it; [`paint`] shows it.
+//! One run of the window: what it knows, and what happens to it; [`picture`] has it traced, [`paint`] shows it.
 
 mod paint;
+mod picture;
 
 use std::path::PathBuf;
 use std::sync::Arc;

@@ -3,17 +3,13 @@
 use std::time::{Duration, Instant};
 
 use super::super::action::Kernel;
-use super::super::app::Wake;
 use super::super::observer::{Observation, widgets};
 use super::super::panel::{Readings, Shown, style};
-use super::super::reference_worker::ReferenceWorker;
 use super::super::screen::{Screen, ScreenError, Widgets};
-use super::super::state::{Dialog, Message};
+use super::super::state::Dialog;
 use super::super::{camera_motion, highlight, preferences};
-use super::{Losses, NextFrame, Reference, Screenshot, Session, new_egui, open_screen};
+use super::{Losses, NextFrame, Reference, Session, new_egui, open_screen};
 use crate::gpu::GpuError;
-use crate::scene::Scene;
-use crate::tracer::TracerError;
 
 /// A step of the camera while a key is held covers at most this, however long the frame before took.
 const LONGEST_STEP: Duration = Duration::from_millis(250);
@@ -211,91 +207,6 @@ impl Session {
         shown
     }
 
-    /// A kernel compiled meanwhile takes the last one's place; a broken one is told of, and the last good one goes on.
-    #[cfg(debug_assertions)]
-    fn take_kernel(&mut self) {
-        let Some(build) = self.shader_watch.as_ref().and_then(|watch| watch.take()) else { return };
-        let Some(screen) = &mut self.screen else { return };
-        let replaced = build.and_then(|shader| {
-            screen.canvas.replace_shader(&shader).map_err(|error| error.to_string())?;
-            self.shader = shader;
-            Ok(())
-        });
-        self.shader_error = replaced.err();
-        // The widgets of this frame are drawn already.
-        self.wake();
-    }
-
-    /// Has the picture of the scene as it is now traced, if it is not yet.
-    fn ask_for_picture(&mut self) -> Result<(), ScreenError> {
-        let (_, size) = self.picture_pixels();
-        let Some(screen) = &mut self.screen else { return Ok(()) };
-        if size != screen.canvas.size() {
-            screen.canvas.resize(&mut screen.in_flight, size)?;
-            self.frame_times.clear();
-            self.reference.shown = None;
-        }
-        let scene = self.state.document.scene();
-        let asked = match self.state.kernel {
-            Kernel::Course => {
-                self.reference = Reference::default();
-                let shown = screen.canvas.show(scene);
-                if shown.is_ok() && self.state.is_continuous && self.screenshots.is_empty() {
-                    screen.canvas.trace_again(scene)
-                } else {
-                    shown
-                }
-            }
-            Kernel::Reference => self.ask_for_reference(),
-        };
-        self.refusal = match asked {
-            Ok(()) => None,
-            Err(TracerError::Refused(reason)) => Some(reason),
-            Err(error) => return Err(error.into()),
-        };
-        Ok(())
-    }
-
-    fn ask_for_reference(&mut self) -> Result<(), TracerError> {
-        let Some(screen) = &mut self.screen else { return Ok(()) };
-        let (scene, size) = (self.state.document.scene(), screen.canvas.size());
-        let Reference { worker, shown, failure } = &mut self.reference;
-        match worker.as_ref().filter(|worker| worker.size == size).and_then(ReferenceWorker::take) {
-            Some(Ok(frame)) => {
-                screen.canvas.put(&mut screen.in_flight, &frame)?;
-                self.pictures_traced += 1;
-                *shown = worker.take().map(|worker| (worker.scene.clone(), worker.size));
-            }
-            Some(Err(reason)) => {
-                *failure = worker.take().map(|worker| (worker.scene.clone(), worker.size, reason));
-            }
-            None => {}
-        }
-        let is_current = |of: &(Scene, [u32; 2])| of.0 == *scene && of.1 == size;
-        let is_asked = worker.as_ref().is_some_and(|worker| worker.scene == *scene && worker.size == size);
-        let failed = failure.as_ref().filter(|failure| failure.0 == *scene && failure.1 == size);
-        if let Some((_, _, reason)) = failed {
-            return Err(TracerError::Refused(reason.clone()));
-        }
-        if shown.as_ref().is_some_and(is_current) {
-            *worker = None;
-        } else if !is_asked {
-            let proxy = self.proxy.clone();
-            let wake = move || {
-                // A loop that has ended needs no waking.
-                let _ = proxy.send_event(Wake::News);
-            };
-            *worker = Some(ReferenceWorker::start(scene.clone(), size, wake));
-        }
-        Ok(())
-    }
-
-    /// Whether the picture shown is all of the scene as it is now.
-    fn is_whole(&self) -> bool {
-        let is_traced = self.screen.as_ref().is_some_and(|screen| screen.canvas.is_whole());
-        self.refusal.is_none() && self.reference.worker.is_none() && is_traced
-    }
-
     fn present(&mut self, widgets: &mut Widgets) -> Result<(), ScreenError> {
         let (corner, _) = self.picture_pixels();
         let is_whole_before = self.is_whole();
@@ -319,38 +230,6 @@ impl Session {
             // Only who asks for the figure pays for it.
             screen.in_flight.wait_for_all()?;
             self.latency.last_ms = Some(changed_at.elapsed().as_secs_f64() * 1e3);
-        }
-        Ok(())
-    }
-
-    /// Of whole pictures only: until then they wait, and one whose scene has changed meanwhile is not taken.
-    fn take_screenshots(&mut self) -> Result<(), ScreenError> {
-        if self.screenshots.is_empty() {
-            return Ok(());
-        }
-        if let Some(refusal) = self.refusal.clone() {
-            self.screenshots.clear();
-            self.state.report(refusal);
-            self.wake();
-            return Ok(());
-        }
-        let scene = self.state.document.scene();
-        let asked = self.screenshots.len();
-        self.screenshots.retain(|screenshot| screenshot.scene == *scene);
-        if self.screenshots.len() < asked {
-            self.state.say(Message::SceneChanged);
-            self.wake();
-        }
-        if self.screenshots.is_empty() || !self.is_whole() {
-            return Ok(());
-        }
-        let Some(screen) = &mut self.screen else { return Ok(()) };
-        let frame = screen.canvas.read_back(&mut screen.in_flight)?;
-        for Screenshot { path, .. } in std::mem::take(&mut self.screenshots) {
-            if let Err(error) = frame.save(&path) {
-                self.state.report(error);
-                self.widgets_due = Some(Instant::now());
-            }
         }
         Ok(())
     }
