@@ -1,6 +1,6 @@
 //! Names, choosing, deleting, undo.
 
-use egui::{Key, Modifiers, Vec2};
+use egui::{Event, Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
 use zerkalo::viewer::preferences::Language;
 
@@ -98,4 +98,22 @@ fn duplicating_answers_to_its_key_and_its_button() {
     press(&mut window, Modifiers::COMMAND, Key::D);
     click(&mut window, "Duplicate the primitive");
     assert_eq!(scene(&window).primitives.len(), 3);
+}
+
+#[test]
+fn keys_pressed_within_one_frame_are_all_answered_in_their_turn() {
+    let mut window = open(Language::English);
+    click(&mut window, "Add a sphere");
+    let key = |key, modifiers| Event::Key { key, physical_key: None, pressed: true, repeat: false, modifiers };
+    let keys = [
+        key(Key::D, Modifiers::COMMAND),
+        key(Key::D, Modifiers::COMMAND),
+        key(Key::Delete, Modifiers::NONE),
+        key(Key::Z, Modifiers::COMMAND),
+        key(Key::Z, Modifiers::COMMAND),
+        key(Key::Z, REDO),
+    ];
+    window.input_mut().events.extend(keys);
+    window.run();
+    assert_eq!(scene(&window).primitives.len(), 3, "two more, one less, twice back, once forth");
 }

@@ -12,7 +12,8 @@ fn it_is_resized_from_tiny_to_large_and_back() {
     for size in [[1500, 950], [320, 240], [1, 1], [801, 3], [64, 48], [999, 777], [5, 600], [1600, 1000], [641, 479]] {
         window.resize(size);
     }
-    let now = window.resize([700, 500]);
+    window.resize([700, 500]);
+    let now = window.settle();
     assert_eq!(now.primitives, 4);
     let frame = window.screenshot("window.exr");
     assert!(frame == desk.render("four", [frame.width(), frame.height()]));

@@ -1,6 +1,6 @@
 //! The keys that stand for an action; those that fly the camera are the picture's.
 
-use egui::{Context, Key, KeyboardShortcut, Modifiers};
+use egui::{Context, Event, Key, KeyboardShortcut, Modifiers};
 
 use crate::viewer::action::Action;
 use crate::viewer::state::State;
@@ -17,30 +17,22 @@ pub const DELETE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key:
 pub const HELP: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::F1);
 const OTHER_REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Y);
 
-/// Takes the keys away from egui and answers them. While a text field has the focus, undoing and deleting are its own.
+/// Takes the keys away from egui and answers them, each press in its turn: a slow frame may have several. While a text
+/// field has the focus, undoing and deleting are its own.
 pub fn consume(ctx: &Context, state: &State, was_typing: bool, actions: &mut Vec<Action>) {
-    // Those with more modifiers first, since egui lets the others match them too.
-    let always = [
-        (SAVE_AS, Action::SaveAs),
-        (SAVE, Action::Save),
-        (OPEN, Action::Open),
-        (NEW, Action::New),
-        (SCREENSHOT, Action::Screenshot),
-        (DUPLICATE, Action::Duplicate),
-        (HELP, Action::ShowHelp(!state.is_help_shown)),
-    ];
-    let not_typing = [(REDO, Action::Redo), (OTHER_REDO, Action::Redo), (UNDO, Action::Undo), (DELETE, Action::Delete)];
     let is_typing = ctx.text_edit_focused();
-    let pressed = ctx.input_mut(|input| {
-        let mut consumed = |shortcuts: &[(KeyboardShortcut, Action)]| {
-            let pressed = shortcuts.iter().filter(|(shortcut, _)| input.consume_shortcut(shortcut));
-            pressed.map(|(_, action)| action.clone()).collect::<Vec<_>>()
-        };
-        let mut pressed = consumed(&always);
-        if !is_typing {
-            pressed.extend(consumed(&not_typing));
-        }
-        pressed
+    let mut is_help_shown = state.is_help_shown;
+    let mut pressed = Vec::new();
+    ctx.input_mut(|input| {
+        input.events.retain(|event| {
+            let answer = answer(event, is_typing, is_help_shown);
+            if let Some(Action::ShowHelp(is_shown)) = answer {
+                is_help_shown = is_shown;
+            }
+            let is_left = answer.is_none();
+            pressed.extend(answer);
+            is_left
+        });
     });
     if !pressed.is_empty() {
         // So that the field gives its value up to what is about to be saved.
@@ -50,6 +42,23 @@ pub fn consume(ctx: &Context, state: &State, was_typing: bool, actions: &mut Vec
     if !was_typing && !egui::Popup::is_any_open(ctx) {
         actions.extend(on_escape(ctx, state));
     }
+}
+
+fn answer(event: &Event, is_typing: bool, is_help_shown: bool) -> Option<Action> {
+    let &Event::Key { key, pressed: true, modifiers, .. } = event else { return None };
+    let always = [
+        (NEW, Action::New),
+        (OPEN, Action::Open),
+        (SAVE, Action::Save),
+        (SAVE_AS, Action::SaveAs),
+        (SCREENSHOT, Action::Screenshot),
+        (DUPLICATE, Action::Duplicate),
+        (HELP, Action::ShowHelp(!is_help_shown)),
+    ];
+    let not_typing = [(UNDO, Action::Undo), (REDO, Action::Redo), (OTHER_REDO, Action::Redo), (DELETE, Action::Delete)];
+    let not_typing = not_typing.into_iter().filter(|_| !is_typing);
+    let is_it = |shortcut: KeyboardShortcut| key == shortcut.logical_key && modifiers.matches_exact(shortcut.modifiers);
+    always.into_iter().chain(not_typing).find(|(shortcut, _)| is_it(*shortcut)).map(|(_, action)| action)
 }
 
 fn on_escape(ctx: &Context, state: &State) -> Option<Action> {
