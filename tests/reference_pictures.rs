@@ -3,27 +3,9 @@
 mod scenes;
 
 use glam::DVec3;
-use scenes::{cube, light, look, material, mirror, mixed_scene, picture, primitive, sphere};
+use scenes::{cube, light, look, material, mirror, mixed_scene, moved_and_scaled, picture, primitive, sphere};
 use zerkalo::reference::{BACKGROUND, Image64, LIGHT_BALL};
 use zerkalo::scene::{Camera, Light, Scene, Solid};
-
-fn moved_and_scaled(scene: &Scene, shift: DVec3, scale: f64) -> Scene {
-    let place = |point: DVec3| shift + point * scale;
-    let mut scene = scene.clone();
-    scene.camera.position = place(scene.camera.position);
-    for light in &mut scene.lights {
-        light.position = place(light.position);
-    }
-    for primitive in &mut scene.primitives {
-        match &mut primitive.solid {
-            Solid::Sphere { center, radius } => (*center, *radius) = (place(*center), *radius * scale),
-            Solid::Box { center, half_size, .. } => (*center, *half_size) = (place(*center), *half_size * scale),
-            Solid::Cylinder { ends, radius } => (*ends, *radius) = (ends.map(place), *radius * scale),
-            Solid::Cone { apex, height, .. } => (*apex, *height) = (place(*apex), *height * scale),
-        }
-    }
-    scene
-}
 
 /// Among the pixels of `a` that show a solid: (largest colour difference where the paths agree, number of pixels whose
 /// paths differ). The others may show a light's ball, whose radius is absolute.

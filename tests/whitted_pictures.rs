@@ -9,9 +9,9 @@ use std::path::Path;
 
 use common::TestDevice;
 use glam::DVec3;
-use scenes::{mixed_scene, picture};
+use scenes::{mixed_scene, moved_and_scaled, picture};
 use zerkalo::reference::{Image64, LIGHT_BALL};
-use zerkalo::scene::{Projection, Scene, Solid, gallery};
+use zerkalo::scene::{Projection, Scene, gallery};
 use zerkalo::tracer::{Kernel, Precision, Settings, Tracer};
 
 const SIZE: [u32; 2] = [88, 38];
@@ -154,24 +154,6 @@ fn every_gallery_scene_looks_as_the_reference_sees_it() {
 #[test]
 fn every_goldens_scene_looks_as_the_reference_sees_it() {
     every_picture_is_the_references(golden_scenes());
-}
-
-fn moved_and_scaled(scene: &Scene, shift: DVec3, scale: f64) -> Scene {
-    let place = |point: DVec3| shift + point * scale;
-    let mut scene = scene.clone();
-    scene.camera.position = place(scene.camera.position);
-    for light in &mut scene.lights {
-        light.position = place(light.position);
-    }
-    for primitive in &mut scene.primitives {
-        match &mut primitive.solid {
-            Solid::Sphere { center, radius } => (*center, *radius) = (place(*center), *radius * scale),
-            Solid::Box { center, half_size, .. } => (*center, *half_size) = (place(*center), *half_size * scale),
-            Solid::Cylinder { ends, radius } => (*ends, *radius) = (ends.map(place), *radius * scale),
-            Solid::Cone { apex, height, .. } => (*apex, *height) = (place(*apex), *height * scale),
-        }
-    }
-    scene
 }
 
 /// Only pixels that show solids in both: the light's ball has one size in every scene.

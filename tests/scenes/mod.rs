@@ -71,3 +71,22 @@ pub fn mixed_scene() -> Scene {
 pub fn look(scene: &Scene, origin: DVec3, direction: DVec3) -> Pixel {
     World::new(scene).look_along(Ray { origin, direction: direction.normalize() })
 }
+
+/// The scene `scale` times as large about the world's origin, then moved. A light's ball keeps its size.
+pub fn moved_and_scaled(scene: &Scene, shift: DVec3, scale: f64) -> Scene {
+    let place = |point: DVec3| shift + point * scale;
+    let mut scene = scene.clone();
+    scene.camera.position = place(scene.camera.position);
+    for light in &mut scene.lights {
+        light.position = place(light.position);
+    }
+    for primitive in &mut scene.primitives {
+        match &mut primitive.solid {
+            Solid::Sphere { center, radius } => (*center, *radius) = (place(*center), *radius * scale),
+            Solid::Box { center, half_size, .. } => (*center, *half_size) = (place(*center), *half_size * scale),
+            Solid::Cylinder { ends, radius } => (*ends, *radius) = (ends.map(place), *radius * scale),
+            Solid::Cone { apex, height, .. } => (*apex, *height) = (place(*apex), *height * scale),
+        }
+    }
+    scene
+}
