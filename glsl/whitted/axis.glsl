@@ -24,7 +24,8 @@ AxisLine about_axis(Line line, Real3 axis, Real3 axis_error, Real reach) {
 
     // A line that meets the solid does so within reach of its place closest to the anchor.
     precise Real unlimited = -dot(line.closest.value, across_slope) / at.slope_squared;
-    Real s_nearest = at.slope_squared > 0.0 ? clamp(unlimited, -reach, reach) : Real(0.0);
+    bool is_recentred = COMPENSATION != 0 && at.slope_squared > 0.0;
+    Real s_nearest = is_recentred ? clamp(unlimited, -reach, reach) : Real(0.0);
     Sum3 nearest = add_scaled(line.closest, s_nearest, line.direction, Real3(0.0));
     at.line = line;
     at.line.closest = nearest;
@@ -56,10 +57,14 @@ Real along_at(AxisLine at, Real s) {
 // One step of Newton's towards a plane across the axis, with the distance from it rounded about once: far from its
 // place the slab's quotient has lost some u of the reach.
 Real nearer_to_plane(AxisLine at, Real3 axis, Real3 axis_error, Real plane, Real s) {
+#if COMPENSATION
     Sum3 place = add_scaled(at.line.closest, s, at.line.direction, Real3(0.0));
     precise Real beyond = exact_dot(axis, axis_error, place) - plane;
     precise Real corrected = s - beyond / at.along_slope;
     return corrected;
+#else
+    return s;
+#endif
 }
 
 // The axial slab [low, high].

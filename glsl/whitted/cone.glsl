@@ -26,10 +26,14 @@ Interval nappe(Cone cone, AxisLine at) {
     Real a = cone_difference(cone, slope_length, abs(at.along_slope));
     Real c = cone_difference(cone, offset_length, abs(along));
     precise Real b = cone.cosine * cone.cosine * dot(offset, at.slope) - cone.sine * cone.sine * along * at.along_slope;
+#if COMPENSATION
     // b^2 - a*c = cos^2 * (sin^2 * |along*slope - along_slope*offset|^2 - cos^2 * moment^2)
     precise Real3 turn = along * at.slope - at.along_slope * offset;
     precise Real turn_length = sqrt(dot(turn, turn));
     precise Real discriminant = -cone.cosine * cone.cosine * cone_difference(cone, abs(at.moment), turn_length);
+#else
+    Real discriminant = b * b - a * c;
+#endif
     bool ahead_is_down = at.along_slope > 0.0;
     Real low, high;
     Interval inside;
@@ -54,6 +58,7 @@ Interval nappe(Cone cone, AxisLine at) {
 // One step of Newton's towards the side: where the line is nearly parallel to it, `a` keeps few digits, and so do the
 // roots; the distance from the side keeps all.
 Real nearer_to_side(Cone cone, AxisLine at, Real s, Real length) {
+#if COMPENSATION
     Real3 radial = radial_at(at, s);
     precise Real distance = sqrt(dot(radial, radial));
     precise Real above = cone.cosine * distance - cone.sine * along_at(at, s);
@@ -62,6 +67,9 @@ Real nearer_to_side(Cone cone, AxisLine at, Real s, Real length) {
     bool is_small = abs(above) < abs(change) * (0.0625 * length);
     precise Real corrected = s - above / change;
     return is_small ? corrected : s;
+#else
+    return s;
+#endif
 }
 
 // A tie at the rim goes to the side.

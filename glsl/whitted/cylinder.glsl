@@ -8,15 +8,20 @@ AxisLine line_of(Cylinder cylinder, Ray ray) {
 // |offset + s * slope|^2 <= r^2. The discriminant is factored by Lagrange's identity: nothing cancels but r.
 Interval body(Cylinder cylinder, AxisLine at) {
     Real radius = cylinder.radius;
+    Real b = dot(at.offset, at.slope);
     precise Real distance = sqrt(dot(at.offset, at.offset));
     if (at.slope_squared == 0.0) return distance <= radius ? WHOLE_LINE : EMPTY;
+    precise Real c = (distance - radius) * (distance + radius);
+#if COMPENSATION
     precise Real reach = radius * sqrt(at.slope_squared);
     precise Real moment = abs(at.moment);
     precise Real discriminant = (reach - moment) * (reach + moment);
+#else
+    Real discriminant = b * b - at.slope_squared * c;
+#endif
     if (discriminant < 0.0) return EMPTY;
-    precise Real c = (distance - radius) * (distance + radius);
     Real low, high;
-    ordered_roots(at.slope_squared, dot(at.offset, at.slope), c, radius * radius, sqrt(discriminant), low, high);
+    ordered_roots(at.slope_squared, b, c, radius * radius, sqrt(discriminant), low, high);
     return Interval(low, high, CURVED, CURVED);
 }
 

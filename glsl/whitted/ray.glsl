@@ -61,6 +61,7 @@ Line recentred(Ray ray, Real3 anchor, Real3 anchor_error) {
     line.origin = origin.value;
     line.direction = ray.direction;
     line.direction_squared = dot(ray.direction, ray.direction);
+#if COMPENSATION
     precise Real t_closest = -dot(origin.value, ray.direction) / line.direction_squared;
     Sum3 closest = add_scaled(origin, t_closest, ray.direction, Real3(0.0));
     // Once more, from there: the first left an error of some u * |origin| along the line.
@@ -68,6 +69,11 @@ Line recentred(Ray ray, Real3 anchor, Real3 anchor_error) {
     line.closest = add_scaled(closest, t_rest, ray.direction, Real3(0.0));
     line.t_closest = t_closest;
     line.t_rest = t_rest;
+#else
+    line.closest = origin;
+    line.t_closest = 0.0;
+    line.t_rest = 0.0;
+#endif
     line.t_error = 0.0;
     return line;
 }
@@ -118,7 +124,7 @@ void ordered_roots(Real a, Real b, Real c, Real c_scale, Real discriminant_root,
     precise Real larger = is_b_positive ? -b - discriminant_root : -b + discriminant_root;
     precise Real smaller = is_b_positive ? -b + discriminant_root : -b - discriminant_root;
     precise Real one = larger / a;
-    bool is_direct = abs(b * larger) <= abs(a) * c_scale;
+    bool is_direct = COMPENSATION == 0 || abs(b * larger) <= abs(a) * c_scale;
     precise Real other = is_direct ? smaller / a : c / larger;
     low = min(one, other);
     high = max(one, other);

@@ -1,5 +1,8 @@
 // The kernel's numbers, float or double as the build says (REAL_BITS), and sums and products without rounding errors.
 //
+// Without COMPENSATION, for comparison, sums and products are the device's own and solids are met by the textbook's
+// quadratics, from the ray's own origin.
+//
 // `precise` keeps the compiler from contracting and reassociating. It does not reach into called functions, so every
 // helper marks its own variables.
 
@@ -34,10 +37,14 @@ struct Sum3 {
 // a + b exactly (Knuth's TwoSum).
 Sum3 two_sum(Real3 a, Real3 b) {
     precise Real3 sum = a + b;
+#if COMPENSATION
     precise Real3 b_part = sum - a;
     precise Real3 a_part = sum - b_part;
     precise Real3 error = (a - a_part) + (b - b_part);
     return Sum3(sum, error);
+#else
+    return Sum3(sum, Real3(0.0));
+#endif
 }
 
 // a + b exactly, where |a| >= |b| (Dekker's Fast2Sum).
@@ -57,7 +64,8 @@ Real3 upper_half(Real3 a) {
 // a * b exactly (TwoProd: by a fused fma, else Dekker's).
 Sum3 two_product(Real3 a, Real3 b) {
     precise Real3 product = a * b;
-    precise Real3 error;
+    precise Real3 error = Real3(0.0);
+#if COMPENSATION
     if (HAS_FUSED_FMA) {
         error = fma(a, b, -product);
     } else {
@@ -67,9 +75,11 @@ Sum3 two_product(Real3 a, Real3 b) {
         precise Real3 b_lower = b - b_upper;
         error = ((a_upper * b_upper - product) + a_upper * b_lower + a_lower * b_upper) + a_lower * b_lower;
     }
+#endif
     return Sum3(product, error);
 }
 
+#if COMPENSATION
 // start + factor * (vector + vector_error), with an error of about u^2 of the largest term.
 Sum3 add_scaled(Sum3 start, Real factor, Real3 vector, Real3 vector_error) {
     Sum3 product = two_product(Real3(factor), vector);
@@ -104,6 +114,15 @@ Real exact_dot(Real3 a, Real3 a_error, Sum3 b) {
     precise Real result = xyz + (rest + beyond);
     return result;
 }
+#else
+Sum3 add_scaled(Sum3 start, Real factor, Real3 vector, Real3 vector_error) {
+    return Sum3(start.value + factor * vector, Real3(0.0));
+}
+
+Real exact_sum(Real a, Real b, Real c) { return a + b + c; }
+
+Real exact_dot(Real3 a, Real3 a_error, Sum3 b) { return dot(a, b.value); }
+#endif
 
 Real largest_component(Real3 v) {
     Real3 size = abs(v);

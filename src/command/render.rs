@@ -22,6 +22,8 @@ use crate::tracer::{self, Settings, Tracer, TracerError};
 pub enum Kernel {
     /// The course work's, quirks and all
     Course,
+    /// The accurate model by textbook quadratics in f32: what accuracy costs and gains is measured against it
+    Plain,
     /// The accurate model
     #[default]
     Whitted,
@@ -112,7 +114,7 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     let scene = scene_named(&args.scene)?;
     check_precision(args)?;
     let rendered = match args.kernel {
-        Kernel::Course | Kernel::Whitted => on_device(args, &scene)?,
+        Kernel::Course | Kernel::Plain | Kernel::Whitted => on_device(args, &scene)?,
         Kernel::Reference => on_cpu(args, scene)?,
     };
     rendered.frame.save(&args.output)?;
@@ -125,6 +127,9 @@ fn check_precision(args: &RenderArgs) -> Result<(), TracerError> {
     match (args.kernel, args.precision) {
         (Kernel::Course, Some(Precision::F64)) => {
             Err(TracerError::Refused("the course kernel calculates in f32 only; --kernel whitted has f64".to_owned()))
+        }
+        (Kernel::Plain, Some(Precision::F64)) => {
+            Err(TracerError::Refused("the plain kernel calculates in f32 only; --kernel whitted has f64".to_owned()))
         }
         (Kernel::Reference, Some(Precision::F32)) => {
             Err(TracerError::Refused("the reference calculates in f64 only; --kernel whitted has f32".to_owned()))
@@ -180,6 +185,7 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
 fn settings(args: &RenderArgs) -> Settings {
     let kernel = match (args.kernel, precision(args)) {
         (Kernel::Course | Kernel::Reference, _) => tracer::Kernel::Course,
+        (Kernel::Plain, _) => tracer::Kernel::Plain,
         (Kernel::Whitted, Precision::F32) => tracer::Kernel::Whitted(tracer::Precision::F32),
         (Kernel::Whitted, Precision::F64) => tracer::Kernel::Whitted(tracer::Precision::F64),
     };

@@ -36,7 +36,7 @@ pub use physical::{DeviceDescription, DeviceKind, choose};
 pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
 pub use recorder::Recorder;
 #[cfg(debug_assertions)]
-pub(crate) use shader_compiler::{PLAIN, compile};
+pub(crate) use shader_compiler::{AS_IT_STANDS, compile};
 pub use shaders::Shader;
 pub use surface::{Surface, SurfaceTarget};
 pub use timer::Timer;

@@ -15,21 +15,26 @@ pub struct Variant {
     pub macros: &'static [(&'static str, &'static str)],
 }
 
-/// The source as it stands.
-pub const PLAIN: Variant = Variant { suffix: "", macros: &[] };
+/// The source without macros.
+pub const AS_IT_STANDS: Variant = Variant { suffix: "", macros: &[] };
 
 const PRECISIONS: [Variant; 2] = [
-    Variant { suffix: "_f32", macros: &[("REAL_BITS", "32")] },
-    Variant { suffix: "_f64", macros: &[("REAL_BITS", "64")] },
+    Variant { suffix: "_f32", macros: &[("REAL_BITS", "32"), ("COMPENSATION", "1")] },
+    Variant { suffix: "_f64", macros: &[("REAL_BITS", "64"), ("COMPENSATION", "1")] },
 ];
 
-/// Kernels of which one source makes several; all others are [`PLAIN`].
-const IN_BOTH_PRECISIONS: [&str; 3] = ["whitted", "probe_exact", "probe_rays"];
+/// The precisions, and what `f32` is worth without compensation.
+const WITH_PLAIN: [Variant; 3] =
+    [PRECISIONS[0], PRECISIONS[1], Variant { suffix: "_plain", macros: &[("REAL_BITS", "32"), ("COMPENSATION", "0")] }];
 
 /// The builds of a kernel, by its [name](kernel_name).
 #[allow(dead_code, reason = "build.rs makes them all; `view --watch` compiles one")]
 pub fn variants(name: &str) -> &'static [Variant] {
-    if IN_BOTH_PRECISIONS.contains(&name) { &PRECISIONS } else { &[PLAIN] }
+    match name {
+        "whitted" | "probe_rays" => &WITH_PLAIN,
+        "probe_exact" => &PRECISIONS,
+        _ => &[AS_IT_STANDS],
+    }
 }
 
 /// Compiles a variant of the kernel `folder`/`kernel` for Vulkan 1.2 (SPIR-V 1.5); build.rs says why.

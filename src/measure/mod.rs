@@ -2,6 +2,7 @@
 
 mod image_error;
 mod mask;
+pub mod stability;
 
 pub use image_error::{ComparisonError, ErrorDomain, ImageError, image_error};
 pub use mask::Mask;

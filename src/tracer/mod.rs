@@ -59,6 +59,8 @@ impl TracerError {
 pub enum Kernel {
     /// The course work's.
     Course,
+    /// The accurate model by textbook quadratics in plain `f32`: what accuracy costs is measured against it.
+    Plain,
     /// The accurate one.
     Whitted(Precision),
 }

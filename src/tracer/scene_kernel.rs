@@ -3,7 +3,7 @@ use std::sync::Arc;
 use super::chunks::Part;
 use super::course::{CourseKernel, CourseScene};
 use super::records::FrameRecord;
-use super::whitted::WhittedKernel;
+use super::whitted::{Precision, WhittedKernel};
 use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, shaders};
 use crate::scene::Scene;
@@ -29,8 +29,32 @@ impl SceneKernel {
                 let kernel = CourseKernel::new(device, &shaders::COURSE, primitives, max_depth, workgroup)?;
                 Self::Course { kernel, frame: Box::new(frame) }
             }
+            Kernel::Plain => {
+                let shader = &shaders::WHITTED_PLAIN;
+                Self::Whitted(WhittedKernel::new(
+                    device,
+                    scene,
+                    shader,
+                    Precision::F32,
+                    max_depth,
+                    [width, height],
+                    workgroup,
+                )?)
+            }
             Kernel::Whitted(precision) => {
-                Self::Whitted(WhittedKernel::new(device, scene, precision, max_depth, [width, height], workgroup)?)
+                let shader = match precision {
+                    Precision::F32 => &shaders::WHITTED_F32,
+                    Precision::F64 => &shaders::WHITTED_F64,
+                };
+                Self::Whitted(WhittedKernel::new(
+                    device,
+                    scene,
+                    shader,
+                    precision,
+                    max_depth,
+                    [width, height],
+                    workgroup,
+                )?)
             }
         })
     }

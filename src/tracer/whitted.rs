@@ -9,7 +9,7 @@ use super::chunks::Part;
 use super::whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, GpuError, PipelineDescription, Recorder,
-    Resource, Shader, shaders,
+    Resource, Shader,
 };
 use crate::scene::Scene;
 
@@ -130,11 +130,14 @@ pub(super) struct WhittedKernel {
 }
 
 impl WhittedKernel {
+    /// `shader`: a build of `glsl/whitted.comp` for `precision`.
+    ///
     /// # Errors
     /// The device lacks the precision, or has no room for the scene.
     pub fn new(
         device: &Arc<Device>,
         scene: &Scene,
+        shader: &Shader,
         precision: Precision,
         max_depth: u32,
         [width, height]: [u32; 2],
@@ -146,7 +149,7 @@ impl WhittedKernel {
         let mut bindings = vec![BindingKind::Picture];
         bindings.extend(SCENE_BINDINGS);
         let description = PipelineDescription {
-            shader: Self::shader(precision),
+            shader,
             bindings: &bindings,
             push_constant_bytes: size_of::<WhittedFrame>() as u32,
             constants: &[fma, spheres, boxes, cylinders, cones, workgroup[0], workgroup[1]],
@@ -164,13 +167,6 @@ impl WhittedKernel {
             },
             workgroup,
         })
-    }
-
-    fn shader(precision: Precision) -> &'static Shader {
-        match precision {
-            Precision::F32 => &shaders::WHITTED_F32,
-            Precision::F64 => &shaders::WHITTED_F64,
-        }
     }
 
     /// The kernel writing into `picture`.

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, SystemTime};
 
-use crate::gpu::{PLAIN, Shader, compile, shaders};
+use crate::gpu::{AS_IT_STANDS, Shader, compile, shaders};
 
 /// Between two looks at the sources.
 const PERIOD: Duration = Duration::from_millis(200);
@@ -46,7 +46,7 @@ impl ShaderWatch {
 }
 
 fn build(sources: &Path) -> Result<Shader, String> {
-    let artifact = compile(sources, Path::new("course.comp"), PLAIN, true).map_err(|error| error.to_string())?;
+    let artifact = compile(sources, Path::new("course.comp"), AS_IT_STANDS, true).map_err(|error| error.to_string())?;
     Ok(Shader { name: shaders::COURSE.name, spirv: Cow::Owned(artifact.as_binary_u8().to_vec()) })
 }
 

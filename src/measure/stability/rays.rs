@@ -1,0 +1,7 @@
+//! Cases of single rays and solids.
+
+use super::Case;
+
+pub(super) fn cases() -> Vec<Case> {
+    Vec::new()
+}
