@@ -50,7 +50,9 @@ fn compile_all() -> Result<(), Box<dyn Error>> {
             writeln!(embedded, "/// `{}`\npub const {constant}: Shader =", file.display())?;
             writeln!(
                 embedded,
-                "    Shader {{ name: {name:?}, spirv: Cow::Borrowed(include_bytes!({spirv_path:?})) }};"
+                "    Shader {{ name: {name:?}, spirv: Cow::Borrowed(include_bytes!({spirv_path:?})), \
+                 asks_for_float_controls: {} }};",
+                variant.asks_for_float_controls
             )?;
         }
     }

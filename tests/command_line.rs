@@ -379,9 +379,14 @@ fn devices_lists_them_for_programs_and_for_people() {
     assert!(!devices.is_empty());
     let text = place.run(&["devices"]);
     assert_eq!((text.code, text.stderr.as_str()), (Some(0), ""));
-    assert_eq!(text.stdout.lines().count(), devices.len());
-    for (index, (device, line)) in devices.iter().zip(text.stdout.lines()).enumerate() {
-        for key in ["index", "name", "kind", "driver", "api_version", "lacks"] {
+    // What its arithmetic was found to be, and its limits, are indented below each device that can be used.
+    let (below, lines): (Vec<_>, Vec<_>) = text.stdout.lines().partition(|line| line.starts_with(' '));
+    assert_eq!(lines.len(), devices.len());
+    let usable = devices.iter().filter(|device| device["lacks"].as_array().is_some_and(Vec::is_empty)).count();
+    assert_eq!(below.len(), 3 * usable, "{below:?}");
+    assert_eq!(below.iter().filter(|line| line.contains("sums and products exact")).count(), 2 * usable, "{below:?}");
+    for (index, (device, line)) in devices.iter().zip(lines).enumerate() {
+        for key in ["index", "name", "kind", "driver", "api_version", "lacks", "f32_arithmetic", "f64_arithmetic"] {
             assert!(keys(device).contains(key), "{key} is missing in {device}");
         }
         assert_eq!(device["index"], index);

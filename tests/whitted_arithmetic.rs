@@ -10,8 +10,8 @@ use bytemuck::cast_slice;
 use common::TestDevice;
 use oracle::random::Random;
 use zerkalo::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, PipelineDescription, Resource, Shader, Use,
-    shaders,
+    self, BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, FloatWidth, PipelineDescription,
+    Resource, Shader, Use, shaders,
 };
 
 const PAIRS: usize = 20_000;
@@ -21,7 +21,7 @@ const SUM: usize = 0;
 const SUM_ERROR: usize = 1;
 const PRODUCT: usize = 2;
 const PRODUCT_ERROR: usize = 3;
-const ROWS: usize = 7;
+const ROWS: usize = 9;
 
 /// Each pair as two rows of four; the results as rows of four. `fused`: by the device's fma.
 fn on_device<T: bytemuck::Pod>(device: &TestDevice, shader: &Shader, pairs: &[T], fused: bool) -> Vec<T> {
@@ -89,6 +89,36 @@ fn f64_sums_and_products_with_their_errors_are_exact() {
         let sum_error = if a.abs() > b.abs() { b - (sum - a) } else { a - (sum - b) };
         assert_eq!((result[SUM], result[SUM_ERROR]), (sum, sum_error), "{a:e} and {b:e}");
         assert_eq!((result[PRODUCT], result[PRODUCT_ERROR]), (a * b, a.mul_add(b, -(a * b))), "{a:e} and {b:e}");
+    }
+}
+
+#[test]
+fn a_device_s_own_fma_is_used_only_where_it_makes_products_exact() {
+    let device = TestDevice::open();
+    let pairs: Vec<f32> = numbers(3, 4.0).into_iter().map(|number| number as f32).collect();
+    let by_fma = on_device(&device, &shaders::PROBE_EXACT_F32, &pairs, true);
+    let is_exact = triples(&pairs, &by_fma).iter().all(|([a, b], result)| {
+        f64::from(result[PRODUCT]) + f64::from(result[PRODUCT_ERROR]) == f64::from(*a) * f64::from(*b)
+    });
+    assert_eq!(gpu::arithmetic(&device, FloatWidth::F32).unwrap().fused_fma, is_exact);
+
+    let pairs = numbers(4, 20.0);
+    let by_fma = on_device(&device, &shaders::PROBE_EXACT_F64, &pairs, true);
+    let is_exact = triples(&pairs, &by_fma)
+        .iter()
+        .all(|([a, b], result)| (result[PRODUCT], result[PRODUCT_ERROR]) == (a * b, a.mul_add(*b, -(a * b))));
+    assert_eq!(gpu::arithmetic(&device, FloatWidth::F64).unwrap().fused_fma, is_exact);
+}
+
+#[test]
+fn the_self_test_finds_the_arithmetic_that_the_bounds_rest_on() {
+    let device = TestDevice::open();
+    for width in [FloatWidth::F32, FloatWidth::F64] {
+        let found = gpu::arithmetic(&device, width).unwrap();
+        assert!(found.exact_sums && found.keeps_nan && found.keeps_infinity, "{width:?}: {found:?}");
+        // Vulkan allows an f32 division 2.5 ulp, which an error below 0.5 beside it cannot be mistaken for.
+        let worst = found.division_error_ulp.max(found.square_root_error_ulp);
+        assert!((0.25..=3.0).contains(&worst), "{width:?}: {found:?}");
     }
 }
 

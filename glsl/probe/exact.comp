@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The accurate kernel's exact sums and products on pairs of vectors, with what a device's own division, square root and
-// fma make of them.
+// The accurate kernel's exact sums and products on pairs of vectors, with what a device's own division, square root,
+// fma and tests for NaN and infinity make of them.
 layout(local_size_x = 64) in;
 
 #include "whitted/real.glsl"
@@ -19,6 +19,8 @@ struct Result {
     Real4 fma_error; // fma(a, b, -product): the product's error where fma is fused
     Real4 quotient;
     Real4 root;      // of |a|
+    Real4 is_nan;      // of a: 1 or 0
+    Real4 is_infinite; // of a: 1 or 0
 };
 
 layout(binding = 0, std430) readonly buffer Pairs { Pair pairs[]; };
@@ -35,5 +37,6 @@ void main() {
     precise Real3 quotient = a / b;
     precise Real3 root = sqrt(abs(a));
     results[index] = Result(Real4(sum.value, 0.0), Real4(sum.error, 0.0), Real4(product.value, 0.0),
-                            Real4(product.error, 0.0), Real4(fma_error, 0.0), Real4(quotient, 0.0), Real4(root, 0.0));
+                            Real4(product.error, 0.0), Real4(fma_error, 0.0), Real4(quotient, 0.0), Real4(root, 0.0),
+                            Real4(Real3(isnan(a)), 0.0), Real4(Real3(isinf(a)), 0.0));
 }

@@ -2,9 +2,10 @@
 
 use anyhow::Result;
 use clap::Args;
+use serde::Serialize;
 
 use super::{print_json, print_line};
-use crate::gpu::{self, DeviceDescription, GpuError};
+use crate::gpu::{self, Arithmetic, Device, DeviceDescription, FloatWidth, GpuError, Validation};
 
 /// List the Vulkan devices
 #[derive(Debug, Clone, Args)]
@@ -19,12 +20,85 @@ pub fn run(args: &DevicesArgs) -> Result<()> {
     if devices.is_empty() {
         return Err(GpuError::NoDriver.into());
     }
+    let tried: Vec<_> = devices.into_iter().map(tried).collect::<Result<_>>()?;
     if args.json {
-        return print_json(&devices);
+        return print_json(&tried);
     }
 
-    let default = gpu::choose(&devices, None);
-    devices.iter().try_for_each(|device| print_line(&line(device, default.as_ref().is_ok_and(|&i| i == device.index))))
+    let descriptions: Vec<_> = tried.iter().map(|device| device.description.clone()).collect();
+    let default = gpu::choose(&descriptions, None);
+    for device in &tried {
+        let is_default = default.as_ref().is_ok_and(|&index| index == device.description.index);
+        print_line(&line(&device.description, is_default))?;
+        if !device.description.lacks.is_empty() {
+            continue;
+        }
+        for (name, arithmetic) in [("f32", &device.f32_arithmetic), ("f64", &device.f64_arithmetic)] {
+            let line = arithmetic.as_ref().map_or("none (it lacks shaderFloat64)".to_owned(), arithmetic_line);
+            print_line(&format!("   {name}: {line}"))?;
+        }
+        print_line(&format!("   {}", limits_line(&device.description)))?;
+    }
+    Ok(())
+}
+
+/// A device with what its arithmetic was found to be.
+#[derive(Debug, Serialize)]
+struct TriedDevice {
+    #[serde(flatten)]
+    description: DeviceDescription,
+    /// Null where the device cannot be used, or has no such numbers.
+    f32_arithmetic: Option<Arithmetic>,
+    f64_arithmetic: Option<Arithmetic>,
+}
+
+fn tried(description: DeviceDescription) -> Result<TriedDevice> {
+    let (mut f32_arithmetic, mut f64_arithmetic) = (None, None);
+    if description.lacks.is_empty() {
+        let device = Device::open(Some(&description.index.to_string()), Validation::Off)?;
+        f32_arithmetic = Some(gpu::arithmetic(&device, FloatWidth::F32)?);
+        if description.float64 {
+            f64_arithmetic = Some(gpu::arithmetic(&device, FloatWidth::F64)?);
+        }
+    }
+    Ok(TriedDevice { description, f32_arithmetic, f64_arithmetic })
+}
+
+fn limits_line(device: &DeviceDescription) -> String {
+    let timestamps = if device.timestamps { "GPU time is measured" } else { "no timestamps: no GPU time" };
+    let storage_mib = device.max_storage_bytes >> 20;
+    format!("limits: tiles of {0}x{0} pixels, arrays of {storage_mib} MiB; {timestamps}", device.max_image_side)
+}
+
+fn arithmetic_line(arithmetic: &Arithmetic) -> String {
+    let &Arithmetic {
+        exact_sums,
+        fused_fma,
+        keeps_nan,
+        keeps_infinity,
+        division_error_ulp,
+        square_root_error_ulp,
+        round_to_nearest_declared,
+        nan_preserve_declared,
+    } = arithmetic;
+    let word = |is: bool, yes: &'static str, no: &'static str| if is { yes } else { no };
+    let words = [
+        word(exact_sums, "sums and products exact", "SUMS AND PRODUCTS NOT EXACT: no error bound holds"),
+        word(fused_fma, "fma fused", "fma not fused (Dekker's products)"),
+        word(keeps_nan, "NaN kept", "NaN lost"),
+        word(keeps_infinity, "infinities kept", "infinities lost"),
+    ];
+    let promised = match (round_to_nearest_declared, nan_preserve_declared) {
+        (true, true) => "rounding to nearest, NaN and infinities",
+        (true, false) => "rounding to nearest",
+        (false, true) => "NaN and infinities",
+        (false, false) => "nothing",
+    };
+    format!(
+        "{}, division {division_error_ulp:.2} ulp, square root {square_root_error_ulp:.2} ulp; promised by the driver: \
+         {promised}",
+        words.join(", ")
+    )
 }
 
 fn line(device: &DeviceDescription, is_default: bool) -> String {

@@ -1,11 +1,13 @@
 use std::ffi::CString;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, OnceLock};
 
 use ash::{ext, khr, vk};
 use gpu_allocator::AllocationSizes;
 use gpu_allocator::vulkan::{Allocator, AllocatorCreateDesc};
 
+use super::arithmetic::Arithmetic;
 use super::error::GpuError;
+use super::float_controls::FloatControls;
 use super::instance::Instance;
 use super::physical::{Candidate, DeviceDescription};
 use super::pipeline_cache::PipelineCache;
@@ -25,6 +27,9 @@ pub struct Device {
     pub(super) timestamp_valid_bits: u32,
     pub(super) timestamp_period_ns: f32,
     pub(super) description: DeviceDescription,
+    pub(super) float_controls: [FloatControls; 2],
+    /// Of `f32` and `f64`, once they have been tried.
+    pub(super) arithmetic: [OnceLock<Arithmetic>; 2],
     pub(super) cache: PipelineCache,
     names: Option<ext::debug_utils::Device>,
     // Always there until `drop` takes it: it must go before the device itself.
@@ -66,6 +71,8 @@ impl Device {
             timestamp_valid_bits: candidate.timestamp_valid_bits,
             timestamp_period_ns: candidate.timestamp_period_ns,
             description: candidate.description,
+            float_controls: candidate.float_controls,
+            arithmetic: Default::default(),
             names,
             allocator: None,
             physical: candidate.raw,

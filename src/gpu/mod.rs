@@ -2,9 +2,11 @@
 //!
 //! Every Vulkan object is made in one place, freed by its owner's `Drop`, and has a debug name.
 
+mod arithmetic;
 mod commands;
 mod device;
 mod error;
+mod float_controls;
 mod hazards;
 mod in_flight;
 mod instance;
@@ -23,6 +25,7 @@ mod widget_memory;
 
 use std::sync::Arc;
 
+pub use arithmetic::{Arithmetic, FloatWidth, arithmetic};
 pub use commands::Commands;
 pub(crate) use commands::Semaphores;
 pub use device::Device;

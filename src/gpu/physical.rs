@@ -6,6 +6,7 @@ use ash::{khr, vk};
 use serde::Serialize;
 
 use super::error::GpuError;
+use super::float_controls::FloatControls;
 use super::instance::{API_VERSION, Instance, version_text};
 use super::surface::Surface;
 
@@ -69,6 +70,7 @@ pub struct DeviceDescription {
 pub(super) struct Candidate {
     pub raw: vk::PhysicalDevice,
     pub description: DeviceDescription,
+    pub float_controls: [FloatControls; 2],
     pub queue_family: u32,
     pub timestamp_valid_bits: u32,
     pub timestamp_period_ns: f32,
@@ -89,17 +91,20 @@ pub(super) fn list(instance: &Instance, surface: Option<&Surface>) -> Result<Vec
 
 fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk::PhysicalDevice) -> Candidate {
     // SAFETY: `raw` comes from this instance. The 1.2 structure is only chained where the device knows it.
-    let (properties, features, families, driver) = unsafe {
+    let (properties, features, families, of_1_2) = unsafe {
         let properties = instance.raw.get_physical_device_properties(raw);
         let features = instance.raw.get_physical_device_features(raw);
         let families = instance.raw.get_physical_device_queue_family_properties(raw);
-        let driver = (properties.api_version >= vk::API_VERSION_1_2).then(|| {
+        let of_1_2 = (properties.api_version >= vk::API_VERSION_1_2).then(|| {
             let mut driver = vk::PhysicalDeviceDriverProperties::default();
-            let mut properties2 = vk::PhysicalDeviceProperties2::default().push_next(&mut driver);
+            let mut floats = vk::PhysicalDeviceFloatControlsProperties::default();
+            let mut properties2 =
+                vk::PhysicalDeviceProperties2::default().push_next(&mut driver).push_next(&mut floats);
             instance.raw.get_physical_device_properties2(raw, &mut properties2);
-            format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()))
+            let driver = format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
+            (driver, FloatControls::of(&floats))
         });
-        (properties, features, families, driver)
+        (properties, features, families, of_1_2)
     };
 
     let mut lacks = Vec::new();
@@ -124,6 +129,7 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
     }
     let queue_family = able.iter().copied().find(has_timestamps).or(able.first().copied());
 
+    let (driver, float_controls) = of_1_2.unzip();
     let timestamp_valid_bits = queue_family.map_or(0, |family| families[family].timestamp_valid_bits);
     Candidate {
         raw,
@@ -139,6 +145,7 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
             float64: features.shader_float64 == vk::TRUE,
             lacks,
         },
+        float_controls: float_controls.unwrap_or_default(),
         queue_family: queue_family.unwrap_or(0) as u32,
         timestamp_valid_bits,
         timestamp_period_ns: properties.limits.timestamp_period,

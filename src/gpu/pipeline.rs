@@ -7,6 +7,7 @@ use ash::vk;
 
 use super::device::Device;
 use super::error::GpuError;
+use super::float_controls;
 use super::hazards::{ResourceId, Use};
 use super::memory::{Buffer, BufferKind, StorageImage};
 use super::shaders::Shader;
@@ -128,7 +129,10 @@ fn compile(
     layout: vk::PipelineLayout,
 ) -> Result<vk::Pipeline, GpuError> {
     let name = description.shader.name;
-    let code = description.shader.words();
+    let mut code = description.shader.words();
+    if description.shader.asks_for_float_controls {
+        code = float_controls::declare(&code, &device.float_controls);
+    }
     let info = vk::ShaderModuleCreateInfo::default().code(&code);
     // SAFETY: the code is what the shader compiler made of a kernel with these bindings and constants.
     let module = unsafe { device.raw.create_shader_module(&info, None) }

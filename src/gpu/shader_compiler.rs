@@ -13,19 +13,27 @@ pub const AS_WRITTEN: [&str; 1] = ["course"];
 pub struct Variant {
     pub suffix: &'static str,
     pub macros: &'static [(&'static str, &'static str)],
+    /// Whether the device is asked to keep to IEEE 754 as far as it can.
+    #[allow(dead_code, reason = "build.rs writes it down; `view --watch` has no such kernel")]
+    pub asks_for_float_controls: bool,
+}
+
+/// A kernel of `glsl/whitted`.
+const fn whitted(suffix: &'static str, macros: &'static [(&'static str, &'static str)]) -> Variant {
+    Variant { suffix, macros, asks_for_float_controls: true }
 }
 
 /// The source without macros.
-pub const AS_IT_STANDS: Variant = Variant { suffix: "", macros: &[] };
+pub const AS_IT_STANDS: Variant = Variant { suffix: "", macros: &[], asks_for_float_controls: false };
 
 const PRECISIONS: [Variant; 2] = [
-    Variant { suffix: "_f32", macros: &[("REAL_BITS", "32"), ("COMPENSATION", "1")] },
-    Variant { suffix: "_f64", macros: &[("REAL_BITS", "64"), ("COMPENSATION", "1")] },
+    whitted("_f32", &[("REAL_BITS", "32"), ("COMPENSATION", "1")]),
+    whitted("_f64", &[("REAL_BITS", "64"), ("COMPENSATION", "1")]),
 ];
 
 /// The precisions, and what `f32` is worth without compensation.
 const WITH_PLAIN: [Variant; 3] =
-    [PRECISIONS[0], PRECISIONS[1], Variant { suffix: "_plain", macros: &[("REAL_BITS", "32"), ("COMPENSATION", "0")] }];
+    [PRECISIONS[0], PRECISIONS[1], whitted("_plain", &[("REAL_BITS", "32"), ("COMPENSATION", "0")])];
 
 /// The builds of a kernel, by its [name](kernel_name).
 #[allow(dead_code, reason = "build.rs makes them all; `view --watch` compiles one")]

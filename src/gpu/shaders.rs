@@ -9,6 +9,8 @@ pub struct Shader {
     pub name: &'static str,
     /// SPIR-V, little-endian words.
     pub spirv: Cow<'static, [u8]>,
+    /// Whether the device is asked to round to nearest and to keep NaN and infinities, as far as it offers that.
+    pub asks_for_float_controls: bool,
 }
 
 impl Shader {

@@ -8,8 +8,8 @@ use super::TracerError;
 use super::chunks::Part;
 use super::whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 use crate::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, GpuError, PipelineDescription, Recorder,
-    Resource, Shader,
+    BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, FloatWidth, GpuError, PipelineDescription,
+    Recorder, Resource, Shader, arithmetic,
 };
 use crate::scene::Scene;
 
@@ -70,11 +70,16 @@ impl Precision {
 pub const SCENE_BINDINGS: [BindingKind; 7] = [BindingKind::Records; 7];
 
 /// Specialization constants 0 to 4: how products are made exact, and which kinds of solids there are.
-pub fn scene_constants(counts: [u32; 4]) -> [u32; 5] {
+///
+/// # Errors
+/// The device fails when its arithmetic is tried.
+pub fn scene_constants(device: &Arc<Device>, precision: Precision, counts: [u32; 4]) -> Result<[u32; 5], GpuError> {
+    let width = match precision {
+        Precision::F32 => FloatWidth::F32,
+        Precision::F64 => FloatWidth::F64,
+    };
     let [spheres, boxes, cylinders, cones] = counts.map(|count| u32::from(count > 0));
-    // Dekker's splitting is right on every device; a fma that is not fused would not be.
-    let has_fused_fma = 0;
-    [has_fused_fma, spheres, boxes, cylinders, cones]
+    Ok([u32::from(arithmetic(device, width)?.fused_fma), spheres, boxes, cylinders, cones])
 }
 
 /// Refuses a precision that the device does not have.
@@ -145,7 +150,7 @@ impl WhittedKernel {
     ) -> Result<Self, TracerError> {
         check_precision(device, precision)?;
         let records = WhittedRecords::of(scene, KernelFrame::of(scene), precision, [width, height]);
-        let [fma, spheres, boxes, cylinders, cones] = scene_constants(records.counts);
+        let [fma, spheres, boxes, cylinders, cones] = scene_constants(device, precision, records.counts)?;
         let mut bindings = vec![BindingKind::Picture];
         bindings.extend(SCENE_BINDINGS);
         let description = PipelineDescription {

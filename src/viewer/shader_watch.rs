@@ -47,7 +47,7 @@ impl ShaderWatch {
 
 fn build(sources: &Path) -> Result<Shader, String> {
     let artifact = compile(sources, Path::new("course.comp"), AS_IT_STANDS, true).map_err(|error| error.to_string())?;
-    Ok(Shader { name: shaders::COURSE.name, spirv: Cow::Owned(artifact.as_binary_u8().to_vec()) })
+    Ok(Shader { spirv: Cow::Owned(artifact.as_binary_u8().to_vec()), ..shaders::COURSE })
 }
 
 /// Every file with its time; editors that write beside and rename change it as well as those that write in place.

@@ -84,7 +84,7 @@ impl<'d> Probe<'d> {
             },
             bindings: &bindings,
             push_constant_bytes: size_of::<WhittedFrame>() as u32,
-            constants: &scene_constants([1; 4]),
+            constants: &scene_constants(device, precision, [1; 4]).unwrap(),
         };
         Self { device, precision, pipeline: ComputePipeline::new(device, &description).unwrap() }
     }
