@@ -11,11 +11,11 @@ use glam::DVec3;
 use oracle::Subject;
 use oracle::random::Random;
 use probe::cases::Case;
-use probe::{From, Probe, ProbeHit, ProbeRay, stored_vector};
+use probe::{From, Probe, ProbeHit, ProbeRay, stored_vector, surface};
 use rayon::prelude::*;
 use zerkalo::reference::{Departure, Hit, Side};
 use zerkalo::scene::{Solid, SolidKind};
-use zerkalo::tracer::Precision;
+use zerkalo::tracer::{Kernel, Precision};
 
 const RAYS_A_SOLID: usize = 32;
 const SOLIDS_A_BATCH: usize = 4_000;
@@ -99,7 +99,7 @@ impl Tally {
             self.remember(format!("{hit:?}: {ray:?} at {:?}", case.solid));
             return;
         }
-        self.inside += u64::from(hit.side == Side::Inside);
+        self.inside += u64::from(surface(&hit).1 == Side::Inside);
         self.compare(case, precision, ray, &hit, &truth);
     }
 
@@ -118,7 +118,7 @@ impl Tally {
             Precision::F32 => case.distance(hit.point, DVec3::ZERO),
             Precision::F64 => truth.normal.dot(hit.point - truth.point).abs(),
         };
-        if (hit.face, hit.side) != (truth.face, truth.side) {
+        if surface(hit) != (truth.face, truth.side) {
             // At an edge both faces are right, to the bar of t.
             if (hit.t - truth.t).abs() > 2.0 * t_bar / cosine.max(1e-300) && t_error > t_bar {
                 self.wrong_face += 1;
@@ -175,14 +175,14 @@ fn fans(cases: &[Case], precision: Precision, batch: u64) -> Vec<(ProbeRay, bool
 
 fn tally(kind: SolidKind, precision: Precision) -> Tally {
     let device = TestDevice::open();
-    let probe = Probe::new(&device, precision);
+    let probe = Probe::new(&device, Kernel::Whitted(precision)).unwrap();
     let mut tally = Tally::default();
     for batch in 0..batches() {
         let cases = cases(kind, precision, batch);
         let fans = fans(&cases, precision, batch);
         tally.near_silhouettes += fans.iter().filter(|(_, is_near)| *is_near).count() as u64;
         let rays: Vec<_> = fans.into_iter().map(|(ray, _)| ray).collect();
-        let hits = probe.cast(&solids(&cases), &rays);
+        let hits = probe.cast(&solids(&cases), &rays).unwrap();
         let judged = rays.par_iter().zip(hits).fold(Tally::default, |mut tally, (ray, hit)| {
             tally.judge(&cases[ray.solid], precision, ray, hit);
             tally
@@ -260,7 +260,7 @@ fn leaving(
 
 fn no_surface_is_met_again_nor_lost(kind: SolidKind, precision: Precision) {
     let device = TestDevice::open();
-    let probe = Probe::new(&device, precision);
+    let probe = Probe::new(&device, Kernel::Whitted(precision)).unwrap();
     let (mut outwards, mut met_again, mut met_twin) = (0, 0, 0);
     let (mut inwards, mut lost, mut off_surface) = (0, 0, 0);
     let mut first_bad = None;
@@ -268,16 +268,20 @@ fn no_surface_is_met_again_nor_lost(kind: SolidKind, precision: Precision) {
         let cases = cases(kind, precision, batch);
         let solids = solids(&cases);
         let rays: Vec<_> = fans(&cases, precision, batch).into_iter().map(|(ray, _)| ray).collect();
-        let hits = rays.iter().zip(probe.cast(&solids, &rays)).filter_map(|(ray, hit)| Some((ray.solid, hit?)));
-        let (outside, inside): (Vec<_>, Vec<_>) = hits.partition(|(_, hit)| hit.side == Side::Outside);
+        let hits =
+            rays.iter().zip(probe.cast(&solids, &rays).unwrap()).filter_map(|(ray, hit)| Some((ray.solid, hit?)));
+        let (outside, inside): (Vec<_>, Vec<_>) = hits.partition(|(_, hit)| surface(hit).1 == Side::Outside);
 
-        let own = |hit: &ProbeHit| From::Own(hit.face, hit.side);
+        let own = |hit: &ProbeHit| {
+            let (face, side) = surface(hit);
+            From::Own(face, side)
+        };
         outwards += outside.len();
         let left = leaving(&outside, precision, batch, own);
-        met_again += probe.cast(&solids, &left).iter().flatten().count();
+        met_again += probe.cast(&solids, &left).unwrap().iter().flatten().count();
         // A solid in the same place has no exclusion: only the bound on the hit point's rounding keeps it away.
         let left = leaving(&outside, precision, batch + 1, |_| From::Another);
-        for ((ray, again), start) in left.iter().zip(probe.cast(&solids, &left)).zip(&outside) {
+        for ((ray, again), start) in left.iter().zip(probe.cast(&solids, &left).unwrap()).zip(&outside) {
             met_twin += usize::from(again.is_some());
             if again.is_some() {
                 first_bad.get_or_insert(format!("{again:?} by {ray:?} from {start:?} of {:?}", solids[ray.solid]));
@@ -286,8 +290,9 @@ fn no_surface_is_met_again_nor_lost(kind: SolidKind, precision: Precision) {
 
         inwards += inside.len();
         let left = leaving(&inside, precision, batch + 2, own);
-        for (ray, exit) in left.iter().zip(probe.cast(&solids, &left)) {
-            let Some(exit) = exit.filter(|exit| exit.is_finite() && exit.side == Side::Inside && exit.t >= 0.0) else {
+        for (ray, exit) in left.iter().zip(probe.cast(&solids, &left).unwrap()) {
+            let Some(exit) = exit.filter(|exit| exit.is_finite() && surface(exit).1 == Side::Inside && exit.t >= 0.0)
+            else {
                 lost += 1;
                 continue;
             };

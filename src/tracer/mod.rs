@@ -3,6 +3,7 @@
 mod canvas;
 mod chunks;
 mod course;
+pub mod probe;
 mod records;
 mod scene_kernel;
 mod tiles;
@@ -63,6 +64,16 @@ pub enum Kernel {
     Plain,
     /// The accurate one.
     Whitted(Precision),
+}
+
+impl Kernel {
+    /// What it calculates in.
+    pub fn precision(self) -> Precision {
+        match self {
+            Self::Course | Self::Plain => Precision::F32,
+            Self::Whitted(precision) => precision,
+        }
+    }
 }
 
 /// How to render, apart from the scene.

@@ -50,7 +50,7 @@ impl Precision {
     }
 
     /// Rows as the kernel reads them.
-    fn bytes(self, rows: &[[f64; 4]]) -> Vec<u8> {
+    pub(super) fn bytes(self, rows: &[[f64; 4]]) -> Vec<u8> {
         match self {
             Self::F32 => rows.iter().flatten().flat_map(|&number| (number as f32).to_ne_bytes()).collect(),
             Self::F64 => bytemuck::cast_slice(rows).to_vec(),
