@@ -18,6 +18,6 @@ void main() {
 
     Real3 color = trace(primary_ray(pixel, size), whole_scene());
     vec3 shown = vec3(min(color, Real3(3.4028234663852886e38)));
-    if (frame.writes_remainder != 0u) shown = vec3(color - Real3(shown));
+    if (frame.writes_remainder != 0u) shown = vec3(min(color - Real3(shown), Real3(3.4028234663852886e38)));
     imageStore(picture, ivec2(tile_pixel), vec4(shown, 1.0));
 }

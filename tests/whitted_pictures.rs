@@ -4,104 +4,22 @@ mod common;
 mod scenes;
 
 use std::fs;
-use std::ops::ControlFlow;
 use std::path::Path;
 
 use common::TestDevice;
 use glam::DVec3;
 use scenes::{mixed_scene, moved_and_scaled, picture};
-use zerkalo::reference::{Image64, LIGHT_BALL};
+use zerkalo::measure::{Difference, bars};
+use zerkalo::reference::LIGHT_BALL;
 use zerkalo::scene::{Projection, Scene, gallery};
 use zerkalo::tracer::{Kernel, Precision, Settings, Tracer};
 
 const SIZE: [u32; 2] = [88, 38];
 
-/// Linear RGB in `f64`: of the `f64` kernel the colour and what it lost by rounding to `f32`.
+/// Linear RGB in `f64`.
 fn kernel_picture(device: &TestDevice, scene: &Scene, precision: Precision, [width, height]: [u32; 2]) -> Vec<DVec3> {
     let settings = Settings { kernel: Kernel::Whitted(precision), ..Settings::new(width, height) };
-    let mut tracer = Tracer::new(device, scene, &settings).unwrap();
-    let mut sum = vec![DVec3::ZERO; (width * height) as usize];
-    for remainder in [false, true] {
-        tracer.draw_remainder(remainder);
-        let mut frame = tracer.frame().unwrap();
-        tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())).unwrap();
-        for (sum, pixel) in sum.iter_mut().zip(frame.pixels()) {
-            *sum += DVec3::from_array(pixel.map(f64::from));
-        }
-    }
-    sum
-}
-
-/// Where the reference's path differs from a neighbour's, corners included.
-fn discontinuities(image: &Image64) -> Vec<bool> {
-    let (width, height) = (image.width as usize, image.height as usize);
-    let differs = |index: usize| {
-        let (x, y) = (index % width, index / width);
-        let rows = y.saturating_sub(1)..=(y + 1).min(height - 1);
-        let mut around = rows.flat_map(|row| {
-            let columns = x.saturating_sub(1)..=(x + 1).min(width - 1);
-            columns.map(move |column| row * width + column)
-        });
-        around.any(|neighbour| image.pixels[neighbour].path != image.pixels[index].path)
-    };
-    (0..image.pixels.len()).map(differs).collect()
-}
-
-#[derive(Debug, Default, Clone, Copy)]
-struct Difference {
-    /// Largest difference of a channel off discontinuities.
-    largest: f64,
-    /// Pixels.
-    smooth: usize,
-    discontinuities: usize,
-    /// Discontinuity pixels that differ by more than the bar.
-    differing: usize,
-    not_finite: usize,
-    solid: usize,
-}
-
-impl Difference {
-    fn plus(self, other: Self) -> Self {
-        Self {
-            largest: self.largest.max(other.largest),
-            smooth: self.smooth + other.smooth,
-            discontinuities: self.discontinuities + other.discontinuities,
-            differing: self.differing + other.differing,
-            not_finite: self.not_finite + other.not_finite,
-            solid: self.solid + other.solid,
-        }
-    }
-
-    /// Over the pixels that `is_counted`, by their number.
-    fn between(truth: &Image64, ours: &[DVec3], bar: f64, is_counted: impl Fn(usize) -> bool) -> Self {
-        let mut difference = Self::default();
-        let discontinuities = discontinuities(truth);
-        for (index, (pixel, &color)) in
-            truth.pixels.iter().zip(ours).enumerate().filter(|&(index, _)| is_counted(index))
-        {
-            // A NaN would be passed over.
-            let error = (pixel.color - color).abs().max_element();
-            let error = if error.is_nan() { f64::INFINITY } else { error };
-            difference.not_finite += usize::from(!color.is_finite());
-            difference.solid += usize::from(pixel.first_hit < LIGHT_BALL);
-            if discontinuities[index] {
-                difference.discontinuities += 1;
-                difference.differing += usize::from(error > bar);
-            } else {
-                difference.smooth += 1;
-                difference.largest = difference.largest.max(error);
-            }
-        }
-        difference
-    }
-}
-
-/// The bars: off discontinuities, and the share of discontinuity pixels that may differ by more than that.
-fn bars(precision: Precision) -> (f64, f64) {
-    match precision {
-        Precision::F32 => (1.0 / 510.0, 1e-3),
-        Precision::F64 => (1e-9, 1e-6),
-    }
+    Tracer::new(device, scene, &settings).unwrap().render_f64().unwrap()
 }
 
 fn golden_scenes() -> Vec<(String, Scene)> {

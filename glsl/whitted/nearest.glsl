@@ -7,10 +7,21 @@ struct Ranges {
     uvec4 first_slot;
 };
 
-// A tie goes to the primitive that the scene names first.
-bool is_nearer(Hit hit, Hit nearest) {
-    if (nearest.slot == NOTHING || hit.t < nearest.t) return true;
-    return hit.t == nearest.t && materials[hit.slot].primitive < materials[nearest.slot].primitive;
+// Whether two hits may lie in one plane, for all that their numbers tell. Each t is off by at most
+// (u * t + 4u * size) / |cosine| (NUMERICS.md, T), and a bound's radius is no less than its solid's size; unit normals
+// are off by 4u each.
+bool are_coplanar(Hit a, Hit b, Ray ray) {
+    if (dot(a.normal, b.normal) < 1.0 - 16.0 * UNIT_ROUNDOFF) return false;
+    Real error = UNIT_ROUNDOFF * (a.t + b.t + 4.0 * (bounds[a.slot].w + bounds[b.slot].w));
+    return abs(a.t - b.t) * abs(dot(a.normal, ray.direction)) <= error;
+}
+
+// A tie goes to the primitive that the scene names first, and so does a plane that two faces share.
+bool is_nearer(Hit hit, Hit nearest, Ray ray) {
+    if (nearest.slot == NOTHING) return true;
+    if (hit.t == nearest.t || are_coplanar(hit, nearest, ray))
+        return materials[hit.slot].primitive < materials[nearest.slot].primitive;
+    return hit.t < nearest.t;
 }
 
 #define SOLID Sphere

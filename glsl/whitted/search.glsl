@@ -12,7 +12,7 @@ void NEAREST(Ray ray, Departure departure, uint begin, uint end, uint first_slot
             Hit hit;
             bool is_met = meet(SOLIDS[index], ray, origin_of(departure, slot), departure.face, hit);
             hit.slot = slot;
-            if (is_met && is_nearer(hit, nearest)) nearest = hit;
+            if (is_met && is_nearer(hit, nearest, ray)) nearest = hit;
         }
     }
 }

@@ -5,6 +5,7 @@ pub mod devices;
 pub mod gallery;
 pub mod interrupt;
 pub mod render;
+pub mod stability;
 pub mod view;
 
 use std::io::{self, Write};
@@ -25,6 +26,7 @@ pub enum Command {
     View(view::ViewArgs),
     Render(render::RenderArgs),
     Compare(compare::CompareArgs),
+    Stability(stability::StabilityArgs),
     Devices(devices::DevicesArgs),
     Gallery(gallery::GalleryArgs),
 }
@@ -35,6 +37,7 @@ impl Command {
             Self::View(args) => view::run(args),
             Self::Render(args) => render::run(args),
             Self::Compare(args) => Ok(compare::run(args)?),
+            Self::Stability(args) => stability::run(args),
             Self::Devices(args) => devices::run(args),
             Self::Gallery(args) => gallery::run(args),
         }

@@ -1,8 +1,10 @@
 //! What a frame is worth: how far it is from another.
 
+mod discontinuity;
 mod image_error;
 mod mask;
 pub mod stability;
 
+pub use discontinuity::{Difference, bars};
 pub use image_error::{ComparisonError, ErrorDomain, ImageError, image_error};
 pub use mask::Mask;

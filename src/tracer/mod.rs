@@ -13,6 +13,8 @@ mod whitted_records;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+use glam::DVec3;
+
 pub use canvas::Canvas;
 pub use course::{BINDINGS, MAX_PRIMITIVES, WORKGROUP, upload};
 pub use records::{
@@ -176,6 +178,24 @@ impl Tracer {
     /// colours again: an `f64` picture is the sum of the two, good to 48 bits. Other kernels lose nothing.
     pub fn draw_remainder(&mut self, remainder: bool) {
         self.kernel.write_remainder(remainder);
+    }
+
+    /// Linear RGB, row by row from the top: of the `f64` kernel good to 48 bits, the colours and what they lose.
+    pub fn render_f64(&mut self) -> Result<Vec<DVec3>, TracerError> {
+        let mut frame = self.frame()?;
+        let mut sum = vec![DVec3::ZERO; frame.pixels().len()];
+        for remainder in [false, true] {
+            self.draw_remainder(remainder);
+            self.render(&mut frame, &mut |_| ControlFlow::Continue(()))?;
+            for (sum, pixel) in sum.iter_mut().zip(frame.pixels()) {
+                *sum += DVec3::from_array(pixel.map(f64::from));
+            }
+            if !self.kernel.has_remainder() {
+                break;
+            }
+        }
+        self.draw_remainder(false);
+        Ok(sum)
     }
 
     /// Traces one tile and copies it to where the host reads it; returns the GPU time of the tracing.

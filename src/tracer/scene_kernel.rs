@@ -82,6 +82,11 @@ impl SceneKernel {
         }
     }
 
+    /// Whether colours lose anything by rounding to `f32`.
+    pub fn has_remainder(&self) -> bool {
+        matches!(self, Self::Whitted(_))
+    }
+
     /// Traces a part of the tile whose corner is at these pixels of the picture.
     pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, [x, y]: [u32; 2], part: Part) {
         match self {

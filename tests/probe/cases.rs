@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use zerkalo::reference::{Departure, Hit, Ray, Solids};
-use zerkalo::scene::{Solid, SolidKind, world_from_box};
+use zerkalo::scene::{Solid, SolidKind};
 use zerkalo::tracer::Precision;
 
 use super::{From, ProbeRay, stored, stored_vector};
@@ -100,44 +100,8 @@ impl Case {
         hits
     }
 
-    /// Distance from the surface in plain `f64`, which is enough to judge an `f32`: from inside and near the surface
-    /// exactly, from elsewhere at most. The point is origin + path, summed only beside the solid: far from the world's
-    /// origin an `f64` does not hold it.
+    /// Of origin + path from the surface.
     pub fn distance(&self, origin: DVec3, path: DVec3) -> f64 {
-        let from = |place: DVec3| (origin - place) + path;
-        match self.solid {
-            Solid::Sphere { center, radius } => (from(center).length() - radius).abs(),
-            Solid::Box { center, half_size, rotation_degrees } => {
-                let above = (world_from_box(rotation_degrees).transpose() * from(center)).abs() - half_size;
-                outside_or_inside(&above.to_array())
-            }
-            Solid::Cylinder { ends: [a, b], radius } => {
-                let axis = (b - a).normalize();
-                let (from_a, length) = (from(a), (b - a).length());
-                let along = from_a.dot(axis);
-                let radial = (from_a - axis * along).length();
-                outside_or_inside(&[radial - radius, (along - length / 2.0).abs() - length / 2.0])
-            }
-            Solid::Cone { apex, axis, height, half_angle_degrees } => {
-                let from_apex = from(apex);
-                let along = from_apex.dot(axis);
-                let radial = (from_apex - axis * along).length();
-                let (sin, cos) = half_angle_degrees.to_radians().sin_cos();
-                let beyond_apex = along * cos + radial * sin < 0.0;
-                let side = if beyond_apex { from_apex.length() } else { radial * cos - along * sin };
-                let base = if radial > height * sin / cos && along > height {
-                    (radial - height * sin / cos).hypot(along - height)
-                } else {
-                    along - height
-                };
-                if side <= 0.0 && base <= 0.0 { side.max(base).abs() } else { side.max(base) }
-            }
-        }
+        zerkalo::measure::stability::distance(&self.solid, origin, path)
     }
-}
-
-/// From the signed distances to convex faces at right angles to each other.
-fn outside_or_inside(above: &[f64]) -> f64 {
-    let largest = above.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    if largest <= 0.0 { -largest } else { above.iter().map(|a| a.max(0.0).powi(2)).sum::<f64>().sqrt() }
 }

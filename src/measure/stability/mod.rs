@@ -1,17 +1,24 @@
-//! The catalogue of extremes (NUMERICS.md): what each kernel makes of every case, in units a bar is stated in.
+//! The catalogue of extremes (NUMERICS.md): what each kernel makes of every case, in units that a bar is stated in.
 
+mod judge;
+mod loading;
 mod pictures;
 mod rays;
+mod scenes;
+mod solids;
 
-use std::sync::Arc;
+pub use judge::{distance, resized};
+
+use std::sync::{Arc, OnceLock};
 
 use crate::gpu::Device;
+use crate::tracer::probe::Probe;
 use crate::tracer::{Kernel, TracerError};
 
 /// One thing measured of a case.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Measured {
-    /// What, by the letters of NUMERICS.md («T», «P», «N», «H») or in words.
+    /// What, in words.
     pub what: &'static str,
     pub measured: f64,
     /// Passed where `measured` is at most this.
@@ -19,20 +26,127 @@ pub struct Measured {
 }
 
 impl Measured {
+    /// Nothing of the kind may be found.
+    fn none_of(what: &'static str, found: usize) -> Self {
+        Self { what, measured: found as f64, bound: 0.0 }
+    }
+
     /// A NaN passes no bound.
     pub fn passes(&self) -> bool {
         self.measured <= self.bound
     }
+
+    /// How near to its bound it comes, or how far beyond: 1 is the bound.
+    fn share(&self) -> f64 {
+        match (self.measured, self.bound) {
+            (measured, _) if measured.is_nan() => f64::INFINITY,
+            (0.0, 0.0) => 0.0,
+            (measured, bound) => measured / bound,
+        }
+    }
 }
 
-/// An entry of the catalogue, such as `DS-3`.
+/// A kernel to be tried on a device.
+pub struct Subject {
+    pub device: Arc<Device>,
+    pub kernel: Kernel,
+    /// With so few rays and pixels that the whole catalogue takes a minute.
+    pub is_quick: bool,
+    probe: OnceLock<Probe>,
+}
+
+impl Subject {
+    pub fn new(device: &Arc<Device>, kernel: Kernel, is_quick: bool) -> Self {
+        Self { device: device.clone(), kernel, is_quick, probe: OnceLock::new() }
+    }
+
+    fn probe(&self) -> Result<&Probe, TracerError> {
+        if let Some(probe) = self.probe.get() {
+            return Ok(probe);
+        }
+        let probe = Probe::new(&self.device, self.kernel)?;
+        Ok(self.probe.get_or_init(|| probe))
+    }
+}
+
+type Trial = Box<dyn Fn(&Subject) -> Result<Vec<Measured>, TracerError>>;
+type SceneTrial = Box<dyn Fn() -> Vec<Measured>>;
+
+/// How a case is tried.
+enum Try {
+    /// On a kernel; nothing measured: it is not for that kernel.
+    Kernel(Trial),
+    /// On the scene's loader, before any kernel.
+    Loader(SceneTrial),
+}
+
+/// An entry of the catalogue.
 pub struct Case {
+    /// Such as `DS-3`.
     pub id: String,
-    /// Tries a kernel on it. `quick`: with so few rays and pixels that the whole catalogue takes a minute.
-    pub run: Box<dyn Fn(&Arc<Device>, Kernel, bool) -> Result<Vec<Measured>, TracerError> + Send + Sync>,
+    trial: Try,
+}
+
+impl Case {
+    fn of_kernel(
+        id: impl Into<String>,
+        trial: impl Fn(&Subject) -> Result<Vec<Measured>, TracerError> + 'static,
+    ) -> Self {
+        Self { id: id.into(), trial: Try::Kernel(Box::new(trial)) }
+    }
+
+    fn of_loader(id: impl Into<String>, trial: impl Fn() -> Vec<Measured> + 'static) -> Self {
+        Self { id: id.into(), trial: Try::Loader(Box::new(trial)) }
+    }
+
+    /// Letters before the number: cases of one kind.
+    pub fn group(&self) -> &str {
+        self.id.split('-').next().unwrap_or(&self.id)
+    }
+
+    /// Whether it is about the scene's loader, whatever the kernel.
+    pub fn is_of_loader(&self) -> bool {
+        matches!(self.trial, Try::Loader(_))
+    }
+
+    /// `None` where the case is not for this kernel, or is not about kernels.
+    pub fn try_kernel(&self, subject: &Subject) -> Result<Option<Verdict>, TracerError> {
+        match &self.trial {
+            Try::Kernel(trial) => Ok(Verdict::of(trial(subject)?)),
+            Try::Loader(_) => Ok(None),
+        }
+    }
+
+    /// `None` where the case is about kernels.
+    pub fn try_loader(&self) -> Option<Verdict> {
+        match &self.trial {
+            Try::Kernel(_) => None,
+            Try::Loader(trial) => Verdict::of(trial()),
+        }
+    }
+}
+
+/// What came of a case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Verdict {
+    pub measured: Vec<Measured>,
+    /// Of them, the one nearest to its bound or farthest beyond.
+    pub worst: Measured,
+}
+
+impl Verdict {
+    fn of(measured: Vec<Measured>) -> Option<Self> {
+        // Of several as good, the first.
+        let worst = *measured.iter().rev().max_by(|a, b| a.share().total_cmp(&b.share()))?;
+        Some(Self { measured, worst })
+    }
+
+    pub fn passes(&self) -> bool {
+        self.measured.iter().all(Measured::passes)
+    }
 }
 
 /// Every entry, in the catalogue's order.
 pub fn catalogue() -> Vec<Case> {
-    rays::cases().into_iter().chain(pictures::cases()).collect()
+    rays::cases().into_iter().chain(loading::cases()).chain(pictures::cases()).collect()
 }
