@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // The accurate kernel (DESIGN.md, "The accurate model"; NUMERICS.md): one source for float and double.
 layout(local_size_x_id = 5, local_size_y_id = 6) in;
 
@@ -19,5 +20,5 @@ void main() {
     Real3 color = trace(primary_ray(pixel, size), whole_scene());
     vec3 shown = vec3(min(color, Real3(3.4028234663852886e38)));
     if (frame.writes_remainder != 0u) shown = vec3(min(color - Real3(shown), Real3(3.4028234663852886e38)));
-    imageStore(picture, ivec2(tile_pixel), vec4(shown, 1.0));
+    imageStore(picture, ivec2(tile_pixel), vec4(shown, turns < LOOP_TURNS ? 1.0 : 0.0));
 }

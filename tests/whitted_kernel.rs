@@ -3,12 +3,14 @@
 mod common;
 mod scenes;
 
+use std::ops::ControlFlow;
+
 use common::{TestDevice, render};
 use glam::DVec3;
 use scenes::{light, material, mirror, mixed_scene, primitive, sphere};
 use zerkalo::frame::Frame;
 use zerkalo::scene::{Camera, Light, Scene, Solid, gallery};
-use zerkalo::tracer::{Kernel, Precision, Settings, Tracer};
+use zerkalo::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
 
 const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
 
@@ -152,6 +154,23 @@ fn solids_too_small_for_the_precision_give_finite_pixels() {
             let mut scene = mixed_scene();
             scene.primitives.push(primitive(sphere(DVec3::NEG_Z * 5.0, radius), mirror()));
             assert!(is_finite(&render(&device, &scene, &settings(precision, 33, 33))), "{radius:e}");
+        }
+    }
+}
+
+/// Mesa's CPU driver ends loops after so many turns; the picture would be wrong without a word.
+#[test]
+fn a_picture_that_the_device_gives_up_on_is_an_error() {
+    let device = TestDevice::open();
+    let behind = primitive(sphere(DVec3::NEG_Z * 50.0, 1.0), mirror());
+    let scene = Scene { primitives: vec![behind; 700_000], background: DVec3::ONE, lights: vec![], ..Scene::default() };
+    let mut tracer = Tracer::new(&device, &scene, &settings(Precision::F32, 8, 8)).unwrap();
+    let mut frame = tracer.frame().unwrap();
+    match tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())) {
+        Ok(_) => assert!(frame.pixels().iter().all(|&pixel| pixel == [1.0; 3]), "drawn, but not what is there"),
+        Err(error) => {
+            assert!(matches!(error, TracerError::GaveUp { pixels: 64, .. }) && !error.is_input_error(), "{error}");
+            assert!(!error.to_string().contains('\n'));
         }
     }
 }

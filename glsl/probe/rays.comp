@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 // Rays in, hits out: the accurate kernel's intersections one by one, by the kernel's own include files. Each ray is
 // tried on one solid alone.
 layout(local_size_x = 64) in;

@@ -1,5 +1,13 @@
 // The cheap reject before the exact solve.
 
+// Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 turns of all of them together: there
+// the search ends before that, and says so. Turns are counted where there may be many of them.
+layout(constant_id = 7) const uint LOOP_TURNS = 0xFFFFFFFFu;
+uint turns = 0u;
+
+// Of a chunk's own loop, of that over its bounds, and each loop's last, in which it ends.
+const uint CHUNK_TURNS = 8u;
+
 // Bounds the rounding errors of `may_meet` relative to the squared distance: 2u for the difference, 3u for each dot
 // product and 4u for the direction's length, each at most once.
 const Real REJECT_ERROR = 16.0 * UNIT_ROUNDOFF;
@@ -20,7 +28,13 @@ bool may_meet(Real4 bound, Ray ray, Real limit) {
 // outside, and from inside its exit always is.
 uint candidates(Ray ray, Departure departure, uint first, uint count, Real limit) {
     uint found = 0u;
-    for (uint i = 0u; i < count; i++) found |= may_meet(bounds[first + i], ray, limit) ? 1u << i : 0u;
+    // By eights, for the sake of LOOP_TURNS.
+    for (uint i = 0u; i < count; i += 8u) {
+        [[unroll]] for (uint k = 0u; k < 8u; k++) {
+            bool meets = may_meet(bounds[first + min(i + k, count - 1u)], ray, limit);
+            found |= meets && i + k < count ? 1u << (i + k) : 0u;
+        }
+    }
     uint own = departure.slot - first;
     if (own < count) found = departure.inside ? found | 1u << own : found & ~(1u << own);
     return found;

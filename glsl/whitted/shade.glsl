@@ -17,6 +17,7 @@ Real fifth_power(Real x) {
 Real3 emitted(Hit hit, Real3 ray_direction, Material material, Departure departure, Ranges ranges) {
     Real3 sum = material.ambient * material.color;
     for (uint i = 0u; i < frame.light_count; i++) {
+        turns++;
         Light light = lights[i];
         precise Real3 to_light = light.position - hit.point;
         Real distance = sqrt(dot(to_light, to_light));

@@ -35,7 +35,8 @@ Real3 trace(Ray ray, Ranges ranges) {
     Departure departure = Departure(NOTHING, CURVED, false);
     Real weight = 1.0;
     Real3 color = Real3(0.0);
-    for (uint generation = 0u; generation < frame.depth && weight != 0.0; generation++) {
+    for (uint generation = 0u; generation < frame.depth && weight != 0.0 && turns < LOOP_TURNS; generation++) {
+        turns++;
         Hit hit = nearest_hit(ray, departure, ranges);
         uint ball = generation == 0u ? light_ball_before(ray, hit) : NOTHING;
         bool ends = ball != NOTHING || hit.slot == NOTHING;

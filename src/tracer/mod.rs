@@ -39,6 +39,11 @@ pub enum TracerError {
     Refused(String),
     #[error("stopped")]
     Stopped,
+    #[error(
+        "device '{device}' gave up on {pixels} pixels, as Mesa's CPU drivers do where a pixel takes more than 65535 turns \
+         of loops; fewer primitives or generations are needed there"
+    )]
+    GaveUp { device: String, pixels: usize },
     #[error(transparent)]
     Gpu(#[from] GpuError),
     #[error(transparent)]
@@ -50,7 +55,7 @@ impl TracerError {
     pub fn is_input_error(&self) -> bool {
         match self {
             Self::Refused(_) => true,
-            Self::Stopped => false,
+            Self::Stopped | Self::GaveUp { .. } => false,
             Self::Gpu(error) => error.is_input_error(),
             Self::Frame(error) => error.is_input_error(),
         }
@@ -112,6 +117,7 @@ pub struct Tracer {
     read_back: Resource,
     timer: Option<Arc<Timer>>,
     commands: Commands,
+    device: Arc<Device>,
 }
 
 impl Tracer {
@@ -141,6 +147,7 @@ impl Tracer {
             pixels,
             timer: Timer::new(device, "trace")?,
             commands: Commands::new(device, "trace")?,
+            device: device.clone(),
         })
     }
 
@@ -165,7 +172,14 @@ impl Tracer {
             let tile = self.tiles[index];
             let tile_time_ns = self.trace(tile)?;
             gpu_time_ns = gpu_time_ns.zip(tile_time_ns).map(|(sum, time)| sum + time);
-            tile.copy_pixels(bytemuck::cast_slice(self.pixels.bytes()?), frame);
+            let pixels: &[[f32; 4]] = bytemuck::cast_slice(self.pixels.bytes()?);
+            let written = &pixels[..(tile.width * tile.height) as usize];
+            let given_up = written.iter().filter(|[.., alpha]| *alpha != 1.0).count();
+            if given_up > 0 {
+                let device = self.device.description().name.clone();
+                return Err(TracerError::GaveUp { device, pixels: given_up });
+            }
+            tile.copy_pixels(pixels, frame);
             pixels_done += u64::from(tile.width) * u64::from(tile.height);
             if progress(pixels_done).is_break() {
                 return Err(TracerError::Stopped);
@@ -203,6 +217,9 @@ impl Tracer {
         let Self { kernel, set, picture, read_back, timer, commands, .. } = self;
         let whole_tile = Part { first: [0, 0], groups: kernel.groups([tile.width, tile.height]) };
         commands.run(|recorder| {
+            // Kernels write an alpha of 1 where they come to their end.
+            recorder.make_ready(picture, Use::CopyTarget);
+            recorder.clear(picture, [0.0; 4]);
             recorder.labelled("trace", |recorder| {
                 recorder.make_ready(picture, Use::ShaderWrite);
                 timer.iter().for_each(|timer| recorder.start(timer));

@@ -8,8 +8,8 @@ use super::TracerError;
 use super::chunks::Part;
 use super::whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 use crate::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, FloatWidth, GpuError, PipelineDescription,
-    Recorder, Resource, Shader, arithmetic,
+    BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, DeviceKind, FloatWidth, GpuError,
+    PipelineDescription, Recorder, Resource, Shader, arithmetic,
 };
 use crate::scene::Scene;
 
@@ -80,6 +80,15 @@ pub fn scene_constants(device: &Arc<Device>, precision: Precision, counts: [u32;
     };
     let [spheres, boxes, cylinders, cones] = counts.map(|count| u32::from(count > 0));
     Ok([u32::from(arithmetic(device, width)?.fused_fma), spheres, boxes, cylinders, cones])
+}
+
+/// Specialization constant 7: the turns of loops that an invocation may take.
+fn loop_turns(device: &Device) -> u32 {
+    match device.description().kind {
+        // Below Mesa's 65535 by more than a last search among all kinds takes to end.
+        DeviceKind::Cpu => 60_000,
+        DeviceKind::Discrete | DeviceKind::Integrated | DeviceKind::Virtual | DeviceKind::Other => u32::MAX,
+    }
 }
 
 /// Refuses a precision that the device does not have.
@@ -157,7 +166,7 @@ impl WhittedKernel {
             shader,
             bindings: &bindings,
             push_constant_bytes: size_of::<WhittedFrame>() as u32,
-            constants: &[fma, spheres, boxes, cylinders, cones, workgroup[0], workgroup[1]],
+            constants: &[fma, spheres, boxes, cylinders, cones, workgroup[0], workgroup[1], loop_turns(device)],
         };
         Ok(Self {
             scene: upload_scene(device, &records, precision)?,

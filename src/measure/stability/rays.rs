@@ -45,7 +45,7 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 fn count(subject: &Subject) -> usize {
-    if subject.is_quick { 1_000 } else { 20_000 }
+    if subject.is_quick { 1_000 } else { 50_000 }
 }
 
 /// Casts the rays and judges the hits.
