@@ -7,7 +7,7 @@ use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::gpu::{InFlight, shaders};
 use zerkalo::scene::{Light, Projection, Scene, Solid, gallery};
-use zerkalo::tracer::{Canvas, Settings, TracerError};
+use zerkalo::tracer::{Canvas, Kernel, Precision, Settings, TracerError};
 
 /// A canvas with what it is traced on.
 struct Easel {
@@ -83,6 +83,57 @@ fn its_picture_is_the_tracer_s_bit_for_bit() {
             }
         }
     }
+}
+
+const ON_DEVICE: [Kernel; 4] =
+    [Kernel::Course, Kernel::Plain, Kernel::Whitted(Precision::F32), Kernel::Whitted(Precision::F64)];
+
+fn rendered_by(device: &TestDevice, kernel: Kernel, scene: &Scene, [width, height]: [u32; 2]) -> Frame {
+    render(device, scene, &Settings { kernel, ..Settings::new(width, height) })
+}
+
+#[test]
+fn every_kernel_s_picture_is_the_tracer_s_bit_for_bit_and_follows_every_edit() {
+    let device = TestDevice::open();
+    let size = [97, 61];
+    let mut easel = Easel::new(&device, size);
+    for kernel in ON_DEVICE.into_iter().chain(ON_DEVICE) {
+        easel.canvas.use_kernel(kernel).unwrap();
+        let mut scene = scene("showcase");
+        let mut check = |scene: &Scene, what: &str| {
+            let (frame, steps) = easel.draw(scene);
+            assert!(steps > 0 && frame == rendered_by(&device, kernel, scene, size), "{kernel:?}: {what}");
+        };
+        check(&scene, "as it is");
+        scene.camera.position += DVec3::new(0.5, 0.25, -0.5);
+        check(&scene, "the camera moved");
+        scene.primitives[1].material.color = DVec3::new(1.0, 0.5, 0.25);
+        check(&scene, "another colour");
+        scene.primitives.truncate(2);
+        check(&scene, "kinds gone");
+        scene.primitives.extend(gallery::scene("four").unwrap().primitives);
+        check(&scene, "kinds come");
+        scene.primitives.clear();
+        check(&scene, "nothing");
+        if kernel != Kernel::Course {
+            scene = gallery::scene("four").unwrap();
+            scene.lights.push(Light { position: DVec3::new(-3.0, 5.0, -8.0), ..Light::default() });
+            check(&scene, "two lights");
+        }
+    }
+}
+
+#[test]
+fn the_accurate_kernel_neither_traces_nor_uploads_a_scene_unchanged() {
+    let device = TestDevice::open();
+    let mut easel = Easel::new(&device, [80, 60]);
+    assert!(easel.canvas.use_kernel(Kernel::Whitted(Precision::F32)).unwrap());
+    assert!(!easel.canvas.use_kernel(Kernel::Whitted(Precision::F32)).unwrap(), "it is the same");
+    let scene = scene("four");
+    // One row of four numbers a bound, two a material; records of 1, 7, 4 and 4 rows; view 4, light 2.
+    let rows = 4 + 4 * 2 + (1 + 7 + 4 + 4) + (4 + 2);
+    assert_eq!(easel.uploaded(|easel| drop(easel.draw(&scene))), rows * 16);
+    assert_eq!(easel.uploaded(|easel| assert_eq!(easel.draw(&scene).1, 0)), 0);
 }
 
 #[test]

@@ -3,33 +3,35 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::TracerError;
 use super::chunks::{Pace, Sweep};
-use super::course::{CourseKernel, CourseScene, WORKGROUP};
-use super::records::PrimitiveRecords;
+use super::live_kernel::{LiveKernel, State};
+use super::{Kernel, TracerError};
 use crate::frame::Frame;
 use crate::gpu::{
     BindingSet, Buffer, BufferKind, Device, GpuError, InFlight, Recorder, Resource, Shader, StorageImage, Timer, Use,
 };
-use crate::scene::{DEPTH_LIMIT, Scene};
+use crate::scene::Scene;
 
 /// Pictures that take longer are seen while they come into being; shorter ones only whole, lest a moving one fall apart.
 const LONG: Duration = Duration::from_millis(500);
 
-/// The course kernel's picture of a changing scene, on submissions of an [`InFlight`].
+/// A kernel's picture of a changing scene, on submissions of an [`InFlight`].
 ///
 /// A picture is of one state of the scene: what changes meanwhile is for the next. Two images take turns, one shown
 /// and one traced; only where a picture takes longer than half a second is the shown one traced in place, and
 /// taken up anew at every change.
 pub struct Canvas {
-    kernel: CourseKernel,
+    kernel: LiveKernel,
+    /// Which that is.
+    kind: Kernel,
+    course_shader: Shader,
     images: [Image; 2],
     shown: usize,
     size: [u32; 2],
     /// What the picture being traced, or else the last one, is of.
-    current: Option<CourseScene>,
+    current: Option<State>,
     /// What the next is of.
-    next: Option<CourseScene>,
+    next: Option<State>,
     sweep: Sweep,
     is_in_place: bool,
     pace: Pace,
@@ -46,12 +48,15 @@ pub struct Canvas {
     timed: (u64, Option<u64>),
     finished_ns: Vec<u64>,
     uploaded_bytes: u64,
+    /// Resources that are used no more.
+    dropped: Vec<Resource>,
     device: Arc<Device>,
 }
 
 struct Image {
     resource: Resource,
-    set: Arc<BindingSet>,
+    /// Once the kernel can be bound.
+    set: Option<Arc<BindingSet>>,
     is_cleared: bool,
 }
 
@@ -72,14 +77,16 @@ struct Chunk {
 }
 
 impl Canvas {
-    /// `shader`: a build of `glsl/course.comp`.
+    /// By the course kernel; `shader`: a build of `glsl/course.comp`.
     pub fn new(device: &Arc<Device>, shader: &Shader, size: [u32; 2]) -> Result<Self, TracerError> {
-        let kernel = CourseKernel::new(device, shader, PrimitiveRecords::default(), DEPTH_LIMIT, WORKGROUP)?;
+        let kernel = LiveKernel::new(device, Kernel::Course, shader)?;
         let timer = || Ok::<_, GpuError>(Place { timer: Timer::new(device, "trace")?, chunk: None });
         Ok(Self {
-            images: images(device, &kernel, size)?,
-            sweep: Sweep::new(kernel.groups(size)),
+            images: images(device, size)?,
+            sweep: Sweep::new(LiveKernel::groups(size)),
             kernel,
+            kind: Kernel::Course,
+            course_shader: shader.clone(),
             shown: 0,
             size,
             current: None,
@@ -94,6 +101,7 @@ impl Canvas {
             timed: (0, Some(0)),
             finished_ns: Vec::new(),
             uploaded_bytes: 0,
+            dropped: Vec::new(),
             device: device.clone(),
         })
     }
@@ -108,16 +116,38 @@ impl Canvas {
         &self.images[self.shown].resource
     }
 
-    /// Another kernel from the next chunk on; the picture is to be [asked for](Canvas::show) again.
-    pub fn replace_shader(&mut self, shader: &Shader) -> Result<(), TracerError> {
-        let kernel = CourseKernel::new(&self.device, shader, PrimitiveRecords::default(), DEPTH_LIMIT, WORKGROUP)?;
-        let sets = [kernel.bind(&self.images[0].resource)?, kernel.bind(&self.images[1].resource)?];
-        for (image, set) in self.images.iter_mut().zip(sets) {
-            image.set = set;
+    /// A kernel from the next chunk on; where it is another one, which is told, the picture is to be
+    /// [asked for](Canvas::show) again.
+    pub fn use_kernel(&mut self, kind: Kernel) -> Result<bool, TracerError> {
+        if kind == self.kind {
+            return Ok(false);
         }
-        self.kernel = kernel;
-        self.forget_scene();
+        let kernel = LiveKernel::new(&self.device, kind, &self.course_shader)?;
+        self.replace_kernel(kernel, kind);
+        Ok(true)
+    }
+
+    /// Another build of `glsl/course.comp` from the next chunk on; the picture is to be [asked for](Canvas::show) again.
+    pub fn replace_shader(&mut self, shader: &Shader) -> Result<(), TracerError> {
+        if self.kind == Kernel::Course {
+            let kernel = LiveKernel::new(&self.device, Kernel::Course, shader)?;
+            self.replace_kernel(kernel, Kernel::Course);
+        }
+        self.course_shader = shader.clone();
         Ok(())
+    }
+
+    fn replace_kernel(&mut self, kernel: LiveKernel, kind: Kernel) {
+        self.kernel = kernel;
+        self.kind = kind;
+        self.images.iter_mut().for_each(|image| image.set = None);
+        self.pace = Pace::new();
+        self.forget_scene();
+    }
+
+    /// Strikes what is used no more from the book of the submissions.
+    pub fn forget_dropped(&mut self, in_flight: &mut InFlight) {
+        self.dropped.drain(..).for_each(|dropped| in_flight.forget(&dropped));
     }
 
     /// Another size, pixels; the picture is to be [asked for](Canvas::show) again.
@@ -125,12 +155,12 @@ impl Canvas {
         if size == self.size {
             return Ok(());
         }
-        let images = images(&self.device, &self.kernel, size)?;
+        let images = images(&self.device, size)?;
         for old in std::mem::replace(&mut self.images, images) {
             in_flight.forget(&old.resource);
         }
         self.size = size;
-        self.sweep = Sweep::new(self.kernel.groups(size));
+        self.sweep = Sweep::new(LiveKernel::groups(size));
         self.forget_scene();
         Ok(())
     }
@@ -139,7 +169,7 @@ impl Canvas {
         (self.current, self.next) = (None, None);
         self.is_in_place = true;
         self.last_took = None;
-        self.sweep = Sweep::new(self.kernel.groups(self.size));
+        self.sweep = Sweep::new(LiveKernel::groups(self.size));
         self.first_of_interest = self.begun + 1;
     }
 
@@ -148,7 +178,7 @@ impl Canvas {
     /// # Errors
     /// The kernel cannot take the scene; the picture stays as it is.
     pub fn show(&mut self, scene: &Scene) -> Result<(), TracerError> {
-        let wanted = CourseScene::new(scene, scene.max_depth, self.size)?;
+        let wanted = self.kernel.prepare(scene, self.size)?;
         let latest = self.next.as_ref().or(self.current.as_ref());
         if latest != Some(&wanted) {
             self.next = Some(wanted);
@@ -159,7 +189,7 @@ impl Canvas {
     /// Asks for the same picture once more.
     pub fn trace_again(&mut self, scene: &Scene) -> Result<(), TracerError> {
         if self.is_whole() {
-            self.next = Some(CourseScene::new(scene, scene.max_depth, self.size)?);
+            self.next = Some(self.kernel.prepare(scene, self.size)?);
         }
         Ok(())
     }
@@ -227,7 +257,7 @@ impl Canvas {
     pub fn record(&mut self, recorder: &mut Recorder, place: usize) -> Result<(), GpuError> {
         self.clear(recorder);
         if self.sweep.left() == 0 || self.is_in_place {
-            self.begin(recorder);
+            self.begin(recorder)?;
         }
         let groups = self.pace.groups().min(self.sweep.left());
         let Some(scene) = self.current.as_ref().filter(|_| groups > 0) else { return Ok(()) };
@@ -238,13 +268,14 @@ impl Canvas {
         }
         let target = if self.is_in_place { self.shown } else { 1 - self.shown };
         let image = &self.images[target];
+        let Some(set) = &image.set else { return Ok(()) };
         let parts = self.sweep.take(groups);
         let timer = &self.places[place].timer;
         recorder.labelled("trace", |recorder| {
             timer.iter().for_each(|timer| recorder.start(timer));
             // After the timer's start: with a framebuffer around, lavapipe takes a time only at the next barrier.
             recorder.make_ready(&image.resource, Use::ShaderWrite);
-            self.kernel.record(recorder, &image.set, &scene.frame, &parts);
+            self.kernel.record(recorder, set, scene, &parts);
             timer.iter().for_each(|timer| recorder.stop(timer));
             Ok(())
         })?;
@@ -258,9 +289,16 @@ impl Canvas {
     }
 
     /// Takes up the scene asked for.
-    fn begin(&mut self, recorder: &mut Recorder) {
-        let Some(scene) = self.next.take() else { return };
-        self.uploaded_bytes += self.kernel.update(recorder, &scene.primitives);
+    fn begin(&mut self, recorder: &mut Recorder) -> Result<(), GpuError> {
+        let Some(scene) = self.next.take() else { return Ok(()) };
+        let begun = self.kernel.begin(recorder, &scene)?;
+        self.uploaded_bytes += begun.uploaded;
+        self.dropped.extend(begun.dropped);
+        for image in &mut self.images {
+            if begun.needs_binding || image.set.is_none() {
+                image.set = self.kernel.bind(&image.resource)?;
+            }
+        }
         self.current = Some(scene);
         self.begun += 1;
         self.begun_at = Instant::now();
@@ -270,10 +308,11 @@ impl Canvas {
             self.sweep.start();
         }
         self.is_in_place = self.last_took.is_none_or(|took| took > LONG);
+        Ok(())
     }
 
     fn clear(&mut self, recorder: &mut Recorder) {
-        let color = self.next.as_ref().or(self.current.as_ref()).map_or([0.0; 3], |scene| scene.frame.background);
+        let color = self.next.as_ref().or(self.current.as_ref()).map_or([0.0; 3], State::background);
         for image in self.images.iter_mut().filter(|image| !image.is_cleared) {
             recorder.make_ready(&image.resource, Use::CopyTarget);
             recorder.clear(&image.resource, [color[0], color[1], color[2], 1.0]);
@@ -326,10 +365,10 @@ impl Canvas {
     }
 }
 
-fn images(device: &Arc<Device>, kernel: &CourseKernel, [width, height]: [u32; 2]) -> Result<[Image; 2], GpuError> {
+fn images(device: &Arc<Device>, [width, height]: [u32; 2]) -> Result<[Image; 2], GpuError> {
     let image = |name| {
         let resource = Resource::from(&Arc::new(StorageImage::new(device, name, width, height)?));
-        Ok(Image { set: kernel.bind(&resource)?, resource, is_cleared: false })
+        Ok(Image { set: None, resource, is_cleared: false })
     };
     Ok([image("picture 0")?, image("picture 1")?])
 }

@@ -3,6 +3,7 @@
 mod canvas;
 mod chunks;
 mod course;
+mod live_kernel;
 pub mod probe;
 mod records;
 mod scene_kernel;

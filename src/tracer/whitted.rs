@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::TracerError;
 use super::chunks::Part;
 use super::whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
+use super::{Kernel, TracerError};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, DeviceKind, FloatWidth, GpuError,
-    PipelineDescription, Recorder, Resource, Shader, arithmetic,
+    PipelineDescription, Recorder, Resource, arithmetic, shaders,
 };
 use crate::scene::Scene;
 
@@ -46,6 +46,14 @@ impl Precision {
                 (nearest, (vector - nearest) + error)
             }
             Self::F64 => (vector, error),
+        }
+    }
+
+    /// Of four numbers.
+    fn row_bytes(self) -> u64 {
+        match self {
+            Self::F32 => 16,
+            Self::F64 => 32,
         }
     }
 
@@ -103,6 +111,22 @@ pub fn check_precision(device: &Device, precision: Precision) -> Result<(), Trac
     Ok(())
 }
 
+/// Refuses arrays larger than the device lets a kernel see.
+fn check_size(device: &Device, records: &WhittedRecords, precision: Precision) -> Result<(), TracerError> {
+    let limit = device.description().max_storage_bytes;
+    for (name, rows) in records.buffers() {
+        let bytes = rows.len() as u64 * precision.row_bytes();
+        if bytes > limit {
+            return Err(TracerError::Refused(format!(
+                "the scene is too large for device '{}': its {name} take {bytes} B in {}, and a kernel sees {limit} B there",
+                device.description().name,
+                precision.name()
+            )));
+        }
+    }
+    Ok(())
+}
+
 /// The storage buffers, in the order of their bindings.
 ///
 /// # Errors
@@ -112,17 +136,13 @@ pub fn upload_scene(
     records: &WhittedRecords,
     precision: Precision,
 ) -> Result<Vec<Resource>, TracerError> {
+    check_size(device, records, precision)?;
+    Ok(upload(device, records, precision)?)
+}
+
+fn upload(device: &Arc<Device>, records: &WhittedRecords, precision: Precision) -> Result<Vec<Resource>, GpuError> {
     let upload = |(name, rows): (&str, &[[f64; 4]])| {
         let bytes = precision.bytes(rows);
-        let limit = device.description().max_storage_bytes;
-        if bytes.len() as u64 > limit {
-            return Err(TracerError::Refused(format!(
-                "the scene is too large for device '{}': its {name} take {} B in {}, and a kernel sees {limit} B there",
-                device.description().name,
-                bytes.len(),
-                precision.name()
-            )));
-        }
         // An array of none still has to be bound: as one record of zeros, which no count reaches.
         let mut buffer = Buffer::new(device, name, BufferKind::Records, (bytes.len() as u64).max(EMPTY_ARRAY_BYTES))?;
         buffer.write(&bytes)?;
@@ -134,71 +154,101 @@ pub fn upload_scene(
 /// The largest record: seven rows of four doubles.
 const EMPTY_ARRAY_BYTES: u64 = 7 * 32;
 
-/// The pipeline with a scene on the device.
-pub(super) struct WhittedKernel {
-    pipeline: Arc<ComputePipeline>,
-    scene: Vec<Resource>,
+/// A scene as the kernel takes it.
+#[derive(PartialEq)]
+pub(super) struct WhittedScene {
+    kernel: Kernel,
+    records: WhittedRecords,
     /// Of the whole picture.
-    frame: WhittedFrame,
+    pub frame: WhittedFrame,
+    /// Linear RGB.
+    pub background: [f32; 3],
+}
+
+impl WhittedScene {
+    /// For a picture of `width`×`height` pixels and `max_depth` generations at most.
+    ///
+    /// # Errors
+    /// The device lacks the kernel's precision, or lets no kernel see so many primitives.
+    pub fn new(
+        device: &Device,
+        scene: &Scene,
+        kernel: Kernel,
+        max_depth: u32,
+        [width, height]: [u32; 2],
+    ) -> Result<Self, TracerError> {
+        let precision = kernel.precision();
+        check_precision(device, precision)?;
+        let records = WhittedRecords::of(scene, KernelFrame::of(scene), precision, [width, height]);
+        check_size(device, &records, precision)?;
+        let frame = WhittedFrame {
+            counts: records.counts,
+            tile_origin: 0,
+            image_size: width | height << 16,
+            depth: max_depth,
+            light_count: records.light_count,
+            writes_remainder: 0,
+        };
+        Ok(Self { kernel, records, frame, background: scene.background.as_vec3().to_array() })
+    }
+
+    pub fn upload(&self, device: &Arc<Device>) -> Result<Vec<Resource>, GpuError> {
+        upload(device, &self.records, self.kernel.precision())
+    }
+
+    /// Of all arrays.
+    pub fn bytes(&self) -> u64 {
+        let rows: usize = self.records.buffers().iter().map(|(_, rows)| rows.len()).sum();
+        rows as u64 * self.kernel.precision().row_bytes()
+    }
+
+    /// Which kinds of solids there are.
+    fn kinds(&self) -> [bool; 4] {
+        self.records.counts.map(|count| count > 0)
+    }
+}
+
+/// The kernel, specialised for scenes with the same kinds of solids.
+pub(super) struct WhittedPipeline {
+    pipeline: Arc<ComputePipeline>,
+    kinds: [bool; 4],
     workgroup: [u32; 2],
 }
 
-impl WhittedKernel {
-    /// `shader`: a build of `glsl/whitted.comp` for `precision`.
-    ///
-    /// # Errors
-    /// The device lacks the precision, or has no room for the scene.
-    pub fn new(
-        device: &Arc<Device>,
-        scene: &Scene,
-        shader: &Shader,
-        precision: Precision,
-        max_depth: u32,
-        [width, height]: [u32; 2],
-        workgroup: [u32; 2],
-    ) -> Result<Self, TracerError> {
-        check_precision(device, precision)?;
-        let records = WhittedRecords::of(scene, KernelFrame::of(scene), precision, [width, height]);
-        let [fma, spheres, boxes, cylinders, cones] = scene_constants(device, precision, records.counts)?;
+impl WhittedPipeline {
+    pub fn new(device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
+        let [fma, spheres, boxes, cylinders, cones] =
+            scene_constants(device, scene.kernel.precision(), scene.records.counts)?;
         let mut bindings = vec![BindingKind::Picture];
         bindings.extend(SCENE_BINDINGS);
         let description = PipelineDescription {
-            shader,
+            shader: match scene.kernel {
+                Kernel::Whitted(Precision::F64) => &shaders::WHITTED_F64,
+                Kernel::Whitted(Precision::F32) => &shaders::WHITTED_F32,
+                Kernel::Plain | Kernel::Course => &shaders::WHITTED_PLAIN,
+            },
             bindings: &bindings,
             push_constant_bytes: size_of::<WhittedFrame>() as u32,
             constants: &[fma, spheres, boxes, cylinders, cones, workgroup[0], workgroup[1], loop_turns(device)],
         };
-        Ok(Self {
-            scene: upload_scene(device, &records, precision)?,
-            pipeline: ComputePipeline::new(device, &description)?,
-            frame: WhittedFrame {
-                counts: records.counts,
-                tile_origin: 0,
-                image_size: width | height << 16,
-                depth: max_depth,
-                light_count: records.light_count,
-                writes_remainder: 0,
-            },
-            workgroup,
-        })
+        Ok(Self { pipeline: ComputePipeline::new(device, &description)?, kinds: scene.kinds(), workgroup })
     }
 
-    /// The kernel writing into `picture`.
-    pub fn bind(&self, picture: &Resource) -> Result<Arc<BindingSet>, GpuError> {
-        let resources: Vec<_> = [picture].into_iter().chain(&self.scene).cloned().collect();
+    /// Whether it draws that scene too.
+    pub fn fits(&self, scene: &WhittedScene) -> bool {
+        self.kinds == scene.kinds()
+    }
+
+    /// The kernel reading a scene's arrays and writing into `picture`.
+    pub fn bind(&self, picture: &Resource, arrays: &[Resource]) -> Result<Arc<BindingSet>, GpuError> {
+        let resources: Vec<_> = [picture].into_iter().chain(arrays).cloned().collect();
         BindingSet::new(&self.pipeline, &resources)
     }
 
-    /// Writes what colours lose by rounding to `f32` from now on, or the colours again.
-    pub fn write_remainder(&mut self, remainder: bool) {
-        self.frame.writes_remainder = u32::from(remainder);
-    }
-
-    /// Traces a part of the tile at (x, y).
-    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, [x, y]: [u32; 2], part: Part) {
-        let frame = WhittedFrame { tile_origin: x | y << 16, ..self.frame };
-        let part = ([part.first[0], part.first[1], 0], [part.groups[0], part.groups[1], 1]);
-        recorder.dispatch_parts(&self.pipeline, set, bytemuck::bytes_of(&frame), [part]);
+    /// Traces these parts of the picture.
+    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, frame: &WhittedFrame, parts: &[Part]) {
+        let parts = parts.iter().map(|part| ([part.first[0], part.first[1], 0], [part.groups[0], part.groups[1], 1]));
+        recorder.dispatch_parts(&self.pipeline, set, bytemuck::bytes_of(frame), parts);
     }
 
     /// The workgroups that cover so many pixels.

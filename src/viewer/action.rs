@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::preferences::Preferences;
 use crate::scene::{Light, Material, Projection, Solid, SolidKind};
+use crate::tracer::{self, Precision};
 
 /// One wish. Edits go through the undo history; a wish that cannot be granted changes nothing and shows a message.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,8 +87,21 @@ pub enum Kernel {
     /// The course work's, on the Vulkan device.
     #[default]
     Course,
+    /// The accurate model on the Vulkan device.
+    Accurate(Precision),
     /// The accurate model in `f64` on the CPU.
     Reference,
+}
+
+impl Kernel {
+    /// The one of the Vulkan device, if it is.
+    pub fn on_device(self) -> Option<tracer::Kernel> {
+        match self {
+            Self::Course => Some(tracer::Kernel::Course),
+            Self::Accurate(precision) => Some(tracer::Kernel::Whitted(precision)),
+            Self::Reference => None,
+        }
+    }
 }
 
 /// What the window has to do outside its state.

@@ -130,6 +130,7 @@ impl Screen {
     pub fn trace(&mut self) -> Result<(), ScreenError> {
         let place = self.in_flight.wait_for_place()?;
         self.canvas.collect(place)?;
+        self.canvas.forget_dropped(&mut self.in_flight);
         let canvas = &mut self.canvas;
         Ok(self.in_flight.submit(Semaphores::default(), |recorder| canvas.record(recorder, place))?)
     }
@@ -142,6 +143,7 @@ impl Screen {
         painter.take_textures(&self.device, &mut self.in_flight, widgets)?;
         let place = self.in_flight.wait_for_place()?;
         self.canvas.collect(place)?;
+        self.canvas.forget_dropped(&mut self.in_flight);
 
         let image = match swapchain.acquire()? {
             Ok(image) => image,

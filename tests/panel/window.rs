@@ -3,6 +3,7 @@
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use zerkalo::scene::gallery;
+use zerkalo::tracer::Precision;
 use zerkalo::viewer::action::{Action, Effect, Kernel};
 use zerkalo::viewer::preferences::{Language, Preferences, Theme};
 use zerkalo::viewer::state::{Dialog, FilePurpose};
@@ -63,6 +64,15 @@ fn camera_and_kernel_answer_to_their_widgets() {
     for button in ["как в курсовой", "Точная модель (ЦП)", "Инвертировать мышь", "Непрерывная трассировка"]
     {
         click(&mut window, button);
+    }
+    for (button, kernel) in [
+        ("Точная f64 (Vulkan)", Kernel::Accurate(Precision::F64)),
+        ("Точная f32 (Vulkan)", Kernel::Accurate(Precision::F32)),
+        ("Курсовая (Vulkan)", Kernel::Course),
+        ("Точная модель (ЦП)", Kernel::Reference),
+    ] {
+        click(&mut window, button);
+        assert_eq!(window.state().state.kernel, kernel);
     }
     let state = &window.state().state;
     let scene = state.document.scene();

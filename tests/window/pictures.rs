@@ -72,6 +72,25 @@ fn the_accurate_model_draws_when_it_is_chosen() {
 }
 
 #[test]
+fn the_accurate_kernel_draws_on_the_device_with_as_many_lights_as_there_are() {
+    let desk = Desk::new(Locale::Russian, [560, 300]);
+    let mut window = desk.view(&["four"]);
+    window.click("Точная f32 (Vulkan)");
+    window.wait_until("it draws", |now| now.kernel == "whitted f32" && now.is_whole);
+    let size = window.settle().picture_size;
+    assert!(window.screenshot("f32.exr") == desk.render_by("whitted", "four", size));
+    window.click("Добавить источник света");
+    window.wait_until("a second light", |now| now.lights == 2 && now.is_whole && now.refusal.is_none());
+    window.save_as("two.toml");
+    assert_eq!(desk.scene("two.toml").lights.len(), 2);
+    let size = window.settle().picture_size;
+    assert!(window.screenshot("two lights.exr") == desk.render_by("whitted", "two.toml", size));
+    window.click("Точная f64 (Vulkan)");
+    window.wait_until("twice the digits", |now| now.kernel == "whitted f64" && now.is_whole && now.refusal.is_none());
+    window.close();
+}
+
+#[test]
 fn a_screenshot_is_taken_while_picture_follows_picture() {
     let desk = Desk::new(Locale::Russian, [700, 500]);
     let mut window = desk.view(&["four"]);

@@ -4,6 +4,7 @@ use egui::Ui;
 
 use super::fields::{RGB, Scale, check, choice, group, number, number_row, vector};
 use crate::scene::{DEPTH_LIMIT, Projection};
+use crate::tracer::Precision;
 use crate::viewer::action::{Action, Kernel};
 use crate::viewer::preferences::Preferences;
 use crate::viewer::state::State;
@@ -57,6 +58,8 @@ fn show_kernel(ui: &mut Ui, words: &Words, now: Kernel, actions: &mut Vec<Action
     let groups = &words.groups;
     let choices = [
         (Kernel::Course, groups.kernel_course, groups.kernel_course_hint),
+        (Kernel::Accurate(Precision::F32), groups.kernel_accurate_f32, groups.kernel_accurate_f32_hint),
+        (Kernel::Accurate(Precision::F64), groups.kernel_accurate_f64, groups.kernel_accurate_f64_hint),
         (Kernel::Reference, groups.kernel_reference, groups.kernel_reference_hint),
     ];
     ui.label(groups.kernel);

@@ -3,6 +3,7 @@
 use egui::Ui;
 
 use super::Readings;
+use crate::tracer::Precision;
 use crate::viewer::action::Kernel;
 use crate::viewer::state::State;
 use crate::viewer::text::Words;
@@ -12,6 +13,8 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, readings: &Readings) {
     let [width, height] = readings.picture_size;
     let kernel = match state.kernel {
         Kernel::Course => groups.kernel_course,
+        Kernel::Accurate(Precision::F32) => groups.kernel_accurate_f32,
+        Kernel::Accurate(Precision::F64) => groups.kernel_accurate_f64,
         Kernel::Reference => groups.kernel_reference,
     };
     let rate = words.frames_per_second(readings.frame_times.frames_per_second());

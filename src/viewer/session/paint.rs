@@ -103,7 +103,7 @@ impl Session {
         self.take_screenshots()?;
         self.show_title();
         self.observe(observation);
-        let is_next_due = self.state.is_continuous && self.state.kernel == Kernel::Course && self.is_whole();
+        let is_next_due = self.state.is_continuous && self.state.kernel != Kernel::Reference && self.is_whole();
         if self.is_whole() != is_whole_before || is_next_due {
             // The widgets have told of what was, or a screenshot has held up the next picture.
             self.wake();

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use super::super::action::Kernel;
 use super::super::app::Wake;
 use super::super::reference_worker::ReferenceWorker;
 use super::super::screen::ScreenError;
@@ -37,9 +36,12 @@ impl Session {
             self.reference.shown = None;
         }
         let scene = self.state.document.scene();
-        let asked = match self.state.kernel {
-            Kernel::Course => {
+        let asked = match self.state.kernel.on_device() {
+            Some(kernel) => {
                 self.reference = Reference::default();
+                if screen.canvas.use_kernel(kernel)? {
+                    self.frame_times.clear();
+                }
                 let shown = screen.canvas.show(scene);
                 if shown.is_ok() && self.state.is_continuous && self.screenshots.is_empty() {
                     screen.canvas.trace_again(scene)
@@ -47,7 +49,7 @@ impl Session {
                     shown
                 }
             }
-            Kernel::Reference => self.ask_for_reference(),
+            None => self.ask_for_reference(),
         };
         self.refusal = match asked {
             Ok(()) => None,

@@ -71,6 +71,11 @@ pub(super) static WORDS: Words = Words {
         kernel_course: "Course (Vulkan)",
         kernel_course_hint: "The course work's kernel on the Vulkan device, with all its shortcuts: cones lack their \
             base, highlights ignore where the light is, there is one light",
+        kernel_accurate_f32: "Accurate f32 (Vulkan)",
+        kernel_accurate_f32_hint: "The accurate model (equation 1.19) on the Vulkan device: bases of cones, any number \
+            of lights, no shortcuts",
+        kernel_accurate_f64: "Accurate f64 (Vulkan)",
+        kernel_accurate_f64_hint: "The accurate model in double precision on the Vulkan device, where it has that",
         kernel_reference: "Reference (CPU)",
         kernel_reference_hint: "The accurate model (equation 1.19) in f64 on the CPU: slower, without the course's \
             shortcuts",

@@ -115,10 +115,14 @@ impl Desk {
     /// What `zerkalo render` makes of a scene, a file in the folder or a name of the gallery, by the kernel that the
     /// window starts with.
     #[track_caller]
-    pub fn render(&self, scene: &str, [width, height]: [u32; 2]) -> Frame {
+    pub fn render(&self, scene: &str, size: [u32; 2]) -> Frame {
+        self.render_by("course", scene, size)
+    }
+
+    pub fn render_by(&self, kernel: &str, scene: &str, [width, height]: [u32; 2]) -> Frame {
         let size = format!("{width}x{height}");
         let Output { status, stderr, .. } = self
-            .program(&["render", scene, "-o", "rendered.exr", "--size", &size, "--kernel", "course"])
+            .program(&["render", scene, "-o", "rendered.exr", "--size", &size, "--kernel", kernel])
             .output()
             .unwrap();
         assert!(status.success(), "{}", String::from_utf8_lossy(&stderr));
