@@ -527,3 +527,32 @@ fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
         std::thread::sleep(Duration::from_millis(10));
     }
 }
+
+#[test]
+fn stability_prints_a_row_a_case_and_fails_only_for_the_accurate_kernel() {
+    let place = Place::new();
+    let report = place.json(&["stability", "--quick", "--kernel", "plain", "--json", "-o", "sheet.png"]);
+    assert_eq!(keys(&report), ["cases", "complete", "device", "driver", "quick"].into());
+    let cases = report["cases"].as_array().unwrap();
+    assert!(cases.len() > 80);
+    for case in cases {
+        assert_eq!(keys(case), ["bound", "id", "kernel", "measured", "pass", "precision", "what"].into());
+    }
+    let failed = cases.iter().filter(|case| case["pass"] == false).count();
+    assert!(failed > 20, "plain quadratics fail much, and that is no failure of the program");
+    assert!(zerkalo::frame::Frame::load(&place.path("sheet.png")).is_ok());
+}
+
+#[test]
+fn stability_refuses_what_it_cannot_try() {
+    let place = Place::new();
+    for (arguments, words) in [
+        (&["stability", "--kernel", "course", "--precision", "f64"][..], "f32 only"),
+        (&["stability", "--kernel", "reference"], "invalid value"),
+        (&["stability", "-o", "sheet.jpg"], "sheet.jpg"),
+    ] {
+        let run = place.run(arguments);
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);
+        assert!(run.stderr.contains(words), "{}", run.stderr);
+    }
+}

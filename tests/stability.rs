@@ -3,9 +3,10 @@
 mod common;
 
 use std::collections::HashSet;
+use std::ops::ControlFlow;
 
 use common::TestDevice;
-use zerkalo::measure::stability::{Subject, Verdict, catalogue};
+use zerkalo::measure::stability::{Subject, Verdict, catalogue, error_sheet};
 use zerkalo::tracer::{Kernel, Precision};
 
 /// The ids of NUMERICS.md, and SC and TR once more as pictures.
@@ -94,4 +95,30 @@ fn the_course_kernel_and_plain_quadratics_fail_where_they_are_known_to() {
     for id in ["DS-4", "DS-7", "TC-2", "TC-3", "KN-1", "KN-4"] {
         assert!(plain.contains(id), "{id} by plain quadratics: {plain:?}");
     }
+}
+
+#[test]
+fn the_sheet_shows_the_kernels_errors_apart() {
+    let device = TestDevice::open();
+    let mut told = Vec::new();
+    let sheet = error_sheet(&device, &mut |done, total| {
+        told.push((done, total));
+        ControlFlow::Continue(())
+    })
+    .unwrap();
+    let columns = if device.description().float64 { 5 } else { 4 };
+    assert_eq!(sheet.width(), 12 + columns * 252);
+    let maps = 6 * (columns as usize - 1);
+    assert_eq!(told, (1..=maps).map(|done| (done, maps)).collect::<Vec<_>>());
+    // The middle of the far sphere, in each column: large errors are light, small ones dark.
+    let luminance = |column: u32| {
+        let (x, y) = (12 + column * 252 + 100, 40 + 24 + 70);
+        let pixel = sheet.pixels()[(y * sheet.width() + x) as usize];
+        0.2126 * pixel[0] + 0.7152 * pixel[1] + 0.0722 * pixel[2]
+    };
+    assert!(luminance(1) > 0.6 && luminance(2) > 0.4, "course {}, plain {}", luminance(1), luminance(2));
+    assert!(luminance(3) < 0.35, "whitted f32 {}", luminance(3));
+
+    let stopped = error_sheet(&device, &mut |_, _| ControlFlow::Break(()));
+    assert!(stopped.is_err());
 }

@@ -1,6 +1,7 @@
 //! `zerkalo stability`: the catalogue of extremes, tried on every kernel.
 
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -12,8 +13,9 @@ use serde::Serialize;
 use super::interrupt::Listener;
 use super::render::Precision;
 use super::{DeviceArgs, print_json, print_line, refuse_messages};
+use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Validation};
-use crate::measure::stability::{Case, Subject, Verdict, catalogue};
+use crate::measure::stability::{Case, Subject, Verdict, catalogue, error_sheet};
 use crate::tracer::{self, TracerError};
 
 /// Kernels on a Vulkan device.
@@ -91,7 +93,7 @@ pub struct CasesFailed {
 pub fn run(args: &StabilityArgs) -> Result<()> {
     let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
     if let Some(output) = &args.output {
-        crate::frame::Frame::check_output_path(output)?;
+        Frame::check_output_path(output)?;
     }
     let device = Device::open(args.device.device.as_deref(), validation)?;
     let kernels = kernels(args, device.description())?;
@@ -100,6 +102,9 @@ pub fn run(args: &StabilityArgs) -> Result<()> {
 
     let listener = Listener::start();
     let (rows, is_complete) = tried(&device, &kernels, args.quick, &listener)?;
+    if let Some(output) = args.output.as_ref().filter(|_| is_complete) {
+        sheet(&device, &listener)?.save(output)?;
+    }
     drop(device);
     if args.json {
         let (device, driver) = (name.as_str(), driver.as_str());
@@ -172,6 +177,18 @@ fn tried(
     }
     bar.finish_and_clear();
     Ok((rows, true))
+}
+
+fn sheet(device: &Arc<Device>, listener: &Listener) -> Result<Frame, TracerError> {
+    let bar = progress_bar(0);
+    bar.set_message("error maps");
+    let sheet = error_sheet(device, &mut |done, total| {
+        bar.set_length(total as u64);
+        bar.set_position(done as u64);
+        if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    bar.finish_and_clear();
+    sheet
 }
 
 /// Drawn on a terminal only.

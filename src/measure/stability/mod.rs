@@ -5,9 +5,11 @@ mod loading;
 mod pictures;
 mod rays;
 mod scenes;
+mod sheet;
 mod solids;
 
 pub use judge::{distance, resized};
+pub use sheet::error_sheet;
 
 use std::sync::{Arc, OnceLock};
 

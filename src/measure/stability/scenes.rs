@@ -160,3 +160,50 @@ pub(super) fn moved_and_scaled(scene: &Scene, shift: DVec3, scale: f64) -> Scene
     }
     scene
 }
+
+/// Without highlights and reflections, so that errors are those of hits, normals and shadows.
+fn matt() -> Material {
+    material(0.2, 0.8, 0.0)
+}
+
+fn seen_from(position: DVec3, towards: DVec3, vertical_fov_degrees: f64) -> Camera {
+    Camera { position, direction: (towards - position).normalize(), vertical_fov_degrees, ..Camera::default() }
+}
+
+/// A unit sphere as many radii away, filling the picture.
+pub(super) fn sheet_far_ball(distance: f64) -> Scene {
+    Scene {
+        camera: seen_from(DVec3::NEG_Z * distance, DVec3::ZERO, 2.0 * (1.3 / distance).atan().to_degrees()),
+        lights: vec![light(-2.0 * distance, 2.0 * distance, -2.0 * distance)],
+        primitives: vec![primitive(Solid::Sphere { center: DVec3::ZERO, radius: 1.0 }, matt())],
+        ..Scene::default()
+    }
+}
+
+/// A part of a cylinder of length 1, 10⁻⁴ thick, seen obliquely from its own length.
+pub(super) fn sheet_thin_cylinder() -> Scene {
+    let half_axis = DVec3::new(0.24, 0.32, 0.3);
+    let position = DVec3::new(0.2, 0.1, -1.0);
+    Scene {
+        camera: seen_from(position, DVec3::ZERO, (2e-4_f64 / position.length()).to_degrees()),
+        lights: vec![light(-20.0, 20.0, -20.0)],
+        primitives: vec![primitive(Solid::Cylinder { ends: [-half_axis, half_axis], radius: 5e-5 }, matt())],
+        ..Scene::default()
+    }
+}
+
+/// A sphere and a cone on a floor, with their shadows.
+pub(super) fn sheet_ball_on_floor() -> Scene {
+    let floor =
+        Solid::Box { center: DVec3::NEG_Y, half_size: DVec3::new(6.0, 1.0, 6.0), rotation_degrees: DVec3::ZERO };
+    let ball = Solid::Sphere { center: DVec3::new(-1.0, 1.0, 0.0), radius: 1.0 };
+    let cone =
+        Solid::Cone { apex: DVec3::new(1.5, 2.0, 0.5), axis: DVec3::NEG_Y, height: 2.0, half_angle_degrees: 25.0 };
+    Scene {
+        camera: seen_from(DVec3::new(0.0, 3.0, -9.0), DVec3::new(0.0, 0.8, 0.0), 32.0),
+        // So far that its ball, which has one size in every scene, is not in the picture.
+        lights: vec![light(-60.0, 90.0, -60.0)],
+        primitives: [floor, ball, cone].map(|solid| primitive(solid, matt())).to_vec(),
+        ..Scene::default()
+    }
+}
