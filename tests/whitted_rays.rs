@@ -13,7 +13,7 @@ use oracle::random::Random;
 use probe::cases::Case;
 use probe::{From, Probe, ProbeHit, ProbeRay, stored_vector, surface};
 use rayon::prelude::*;
-use zerkalo::reference::{Departure, Hit, Side};
+use zerkalo::reference::{Departure, Face, Hit, Side};
 use zerkalo::scene::{Solid, SolidKind};
 use zerkalo::tracer::{Kernel, Precision};
 
@@ -43,9 +43,6 @@ struct Tally {
     worst_point: f64,
     worst_normal: f64,
     worst_length: f64,
-    above_t: u64,
-    above_point: u64,
-    above_normal: u64,
     first_bad: Option<String>,
     first_wrong: Option<String>,
 }
@@ -65,9 +62,6 @@ impl Tally {
             worst_point: self.worst_point.max(other.worst_point),
             worst_normal: self.worst_normal.max(other.worst_normal),
             worst_length: self.worst_length.max(other.worst_length),
-            above_t: self.above_t + other.above_t,
-            above_point: self.above_point + other.above_point,
-            above_normal: self.above_normal + other.above_normal,
             first_bad: self.first_bad.or(other.first_bad),
             first_wrong: self.first_wrong.or(other.first_wrong),
         }
@@ -128,14 +122,19 @@ impl Tally {
         }
         let t_share = t_error / t_bar;
         let point_share = point_error / point_bar;
-        let normal_share = (hit.normal - truth.normal).length() * cosine / (8.0 * u);
+        // Beyond the catalogue's distances a pair of numbers no longer holds the way: it keeps it to u², which across an
+        // axis, at a radius r and a distance t from it, is u²·t/r of the direction.
+        let reach = hit.t / radius_at(&case.solid, truth.point);
+        let beyond = if reach > FARTHEST { u * u * reach } else { 0.0 };
+        // A round side that the ray leaves by less than that has a clearance r·cos²θ/2 below H's band of 8u·r, where not
+        // even hit or miss is certain, and the bar is no smaller than cosθ itself.
+        let is_decided = truth.face != Face::Curved || cosine >= (16.0 * u).sqrt();
+        let normal_error = if is_decided { (hit.normal - truth.normal).length() * cosine } else { 0.0 };
+        let normal_share = normal_error / (8.0 * u + beyond);
         self.worst_t = self.worst_t.max(t_share);
         self.worst_point = self.worst_point.max(point_share);
         self.worst_normal = self.worst_normal.max(normal_share);
         self.worst_length = self.worst_length.max((hit.normal.length() - 1.0).abs() / (4.0 * u));
-        self.above_t += u64::from(t_share > 1.0);
-        self.above_point += u64::from(point_share > 1.0);
-        self.above_normal += u64::from(normal_share > 1.0);
         if t_share > 1.0 {
             self.remember(format!("T {t_share}: {hit:?} instead of {truth:?}: {ray:?} at {:?}", case.solid));
         }
@@ -145,6 +144,21 @@ impl Tally {
         self.first_bad.get_or_insert(description);
     }
 }
+
+/// Distance of a point on a curved side from the axis; of other surfaces, which have none, infinite.
+fn radius_at(solid: &Solid, point: DVec3) -> f64 {
+    match *solid {
+        Solid::Cylinder { radius, .. } => radius,
+        Solid::Cone { apex, axis, .. } => {
+            let from_apex = point - apex;
+            (from_apex - axis * from_apex.dot(axis)).length()
+        }
+        Solid::Sphere { .. } | Solid::Box { .. } => f64::INFINITY,
+    }
+}
+
+/// Of the catalogue's distances in radii.
+const FARTHEST: f64 = 1e7;
 
 /// From |t| to the next larger number.
 fn ulp(precision: Precision, t: f64) -> f64 {
@@ -199,16 +213,8 @@ fn bars_are_kept_by(kind: SolidKind, precision: Precision) {
     assert!(tally.hits * 10 > tally.rays * 3, "only {} hits of {} rays", tally.hits, tally.rays);
     assert!(tally.inside * 50 > tally.rays, "only {} hits from inside", tally.inside);
     assert!(tally.near_silhouettes * 5 > tally.rays * 2, "only {} near silhouettes", tally.near_silhouettes);
-    let is_thin = precision == Precision::F32 && matches!(kind, SolidKind::Cylinder | SolidKind::Cone);
-    // T holds for all but these two: of 10⁷ rays one at a cylinder exceeded it, by 1.04, and 25 at cones, by 1.33.
-    let (may_exceed_t, worst_t) = if is_thin { (tally.hits / 100_000, 1.5) } else { (0, 1.0) };
-    assert!(tally.above_t <= may_exceed_t && tally.worst_t <= worst_t, "T: {tally:#?}");
-    // P likewise, but for one of the 10⁷ rays, at a cone.
-    assert!(tally.above_point <= may_exceed_t && tally.worst_length <= 1.0, "{tally:#?}");
-    // N, 8u/|cosθ|, holds for all but these: an `f32` that says where a ray meets a thin solid's side to u of its length
-    // says it to a few u·length/radius of its radius, and so the direction across the axis.
-    let may_exceed_normal = if is_thin { tally.hits / 1_000 } else { 0 };
-    assert!(tally.above_normal <= may_exceed_normal, "N: {tally:#?}");
+    let worst = [tally.worst_t, tally.worst_point, tally.worst_normal, tally.worst_length];
+    assert!(worst.into_iter().all(|worst| worst <= 1.0), "{tally:#?}");
 }
 
 #[test]
@@ -222,12 +228,12 @@ fn f32_boxes_break_no_bar() {
 }
 
 #[test]
-fn f32_cylinders_break_bars_no_oftener_than_stated() {
+fn f32_cylinders_break_no_bar() {
     bars_are_kept_by(SolidKind::Cylinder, Precision::F32);
 }
 
 #[test]
-fn f32_cones_break_bars_no_oftener_than_stated() {
+fn f32_cones_break_no_bar() {
     bars_are_kept_by(SolidKind::Cone, Precision::F32);
 }
 

@@ -61,7 +61,10 @@ Real nearer_to_side(Cone cone, AxisLine at, Real s, Real length) {
 #if COMPENSATION
     Real3 radial = radial_at(at, s);
     precise Real distance = sqrt(dot(radial, radial));
-    precise Real above = cone.cosine * distance - cone.sine * along_at(at, s);
+    // Of a blunt cone the way along the axis is a small difference: it is rounded once.
+    Sum3 place = add_scaled(at.line.closest, s, at.line.direction, Real3(0.0));
+    Real along = exact_dot(cone.axis, cone.axis_error, place);
+    precise Real above = cone.cosine * distance - cone.sine * along;
     precise Real change = cone.cosine * (dot(radial, at.slope) / distance) - cone.sine * at.along_slope;
     // Near the silhouette and the apex, where it would lead away, the root is good as it is.
     bool is_small = abs(above) < abs(change) * (0.0625 * length);
@@ -75,8 +78,11 @@ Real nearer_to_side(Cone cone, AxisLine at, Real s, Real length) {
 // A tie at the rim goes to the side.
 Interval interval(Cone cone, AxisLine at) {
     Interval slab = axial_slab(at, Real(0.0), CURVED, cone.height, BASE);
-    Interval inside = intersection(nappe(cone, at), slab);
-    Real length = inside.far - inside.near;
+    Interval side = nappe(cone, at);
+    Interval inside = intersection(side, slab);
+    if (inside.near > inside.far) return EMPTY;
+    // Of the chord without the base, which may cut off all but a corner of it.
+    Real length = side.far - side.near;
     inside.near = inside.near_face == CURVED ? nearer_to_side(cone, at, inside.near, length)
                                              : nearer_to_plane(at, cone.axis, cone.axis_error, cone.height, inside.near);
     inside.far = inside.far_face == CURVED ? nearer_to_side(cone, at, inside.far, length)

@@ -80,7 +80,7 @@ Line recentred(Ray ray, Real3 anchor, Real3 anchor_error) {
 
 // The ray's parameter at a place of its recentred line.
 Real t_at(Line line, Real s) {
-    return exact_sum(line.t_closest, line.t_rest, s) + line.t_error;
+    return exact_sum(line.t_closest, line.t_rest, s, line.t_error);
 }
 
 // How far the closest point is ahead of the ray's origin.

@@ -88,15 +88,15 @@ Sum3 add_scaled(Sum3 start, Real factor, Real3 vector, Real3 vector_error) {
     return renormalized(sum.value, rest);
 }
 
-// a + b + c, rounded about once.
-Real exact_sum(Real a, Real b, Real c) {
+// a + b + c + rest, rounded about once, where `rest` is some u of the others.
+Real exact_sum(Real a, Real b, Real c, Real rest) {
     precise Real bc = b + c;
     precise Real c_part = bc - b;
     precise Real bc_error = (b - (bc - c_part)) + (c - c_part);
     precise Real abc = a + bc;
     precise Real bc_part = abc - a;
     precise Real abc_error = (a - (abc - bc_part)) + (bc - bc_part);
-    precise Real result = abc + (abc_error + bc_error);
+    precise Real result = abc + ((abc_error + bc_error) + rest);
     return result;
 }
 
@@ -119,7 +119,7 @@ Sum3 add_scaled(Sum3 start, Real factor, Real3 vector, Real3 vector_error) {
     return Sum3(start.value + factor * vector, Real3(0.0));
 }
 
-Real exact_sum(Real a, Real b, Real c) { return a + b + c; }
+Real exact_sum(Real a, Real b, Real c, Real rest) { return a + b + c; }
 
 Real exact_dot(Real3 a, Real3 a_error, Sum3 b) { return dot(a, b.value); }
 #endif
