@@ -5,6 +5,7 @@
 layout(local_size_x_id = 5, local_size_y_id = 6) in;
 
 #include "whitted/solids.glsl"
+#include "whitted/search.glsl"
 #include "whitted/shade.glsl"
 #include "whitted/trace.glsl"
 
@@ -14,10 +15,13 @@ void main() {
     uvec2 tile_pixel = gl_GlobalInvocationID.xy;
     uvec2 pixel = uvec2(frame.tile_origin & 0xFFFFu, frame.tile_origin >> 16) + tile_pixel;
     uvec2 size = uvec2(frame.image_size & 0xFFFFu, frame.image_size >> 16);
-    // The last workgroups of a tile and the last tiles of a picture reach past its edge.
-    if (any(greaterThanEqual(tile_pixel, uvec2(imageSize(picture)))) || any(greaterThanEqual(pixel, size))) return;
+    // The last workgroups of a tile and the last tiles of a picture reach past its edge. Packets are of whole rows of
+    // invocations, so none may leave before the others.
+    bool is_there = all(lessThan(tile_pixel, uvec2(imageSize(picture)))) && all(lessThan(pixel, size));
 
-    Real3 color = trace(primary_ray(pixel, size), whole_scene());
+    View view = view();
+    Real3 color = trace(primary_ray(pixel, size, view), is_there, view.background);
+    if (!is_there) return;
     vec3 shown = vec3(min(color, Real3(3.4028234663852886e38)));
     if (frame.writes_remainder != 0u) shown = vec3(min(color - Real3(shown), Real3(3.4028234663852886e38)));
     imageStore(picture, ivec2(tile_pixel), vec4(shown, turns < LOOP_TURNS ? 1.0 : 0.0));

@@ -125,8 +125,11 @@ fn the_self_test_finds_the_arithmetic_that_the_bounds_rest_on() {
 /// Opcodes and numbers of the SPIR-V specification, unified1.
 mod spirv {
     pub const MAGIC: u32 = 0x0723_0203;
+    pub const NAME: u32 = 5;
     pub const CONSTANT: u32 = 43;
     pub const CONSTANT_COMPOSITE: u32 = 44;
+    pub const FUNCTION: u32 = 54;
+    pub const FUNCTION_END: u32 = 56;
     pub const DECORATE: u32 = 71;
     pub const F_ADD: u32 = 129;
     pub const F_SUB: u32 = 131;
@@ -174,19 +177,14 @@ fn all_arithmetic_of_the_exact_sums_and_products_has_no_contraction() {
     }
 }
 
-/// The kernels' own code, inlined and optimised: what starts with a multiplication by the splitter is a TwoProd, and so
+/// The probes' code, the kernels' own inlined and optimised: what starts with a multiplication by the splitter is a TwoProd, and so
 /// is what follows from it within its five steps.
 #[test]
-fn every_exact_product_in_the_kernels_has_no_contraction() {
+fn every_exact_product_in_the_probes_has_no_contraction() {
     let f32_splitter: &[u32] = &[4097_f32.to_bits()];
     let bits = 134_217_729_f64.to_bits();
     let f64_splitter: &[u32] = &[bits as u32, (bits >> 32) as u32];
-    for (shader, splitter) in [
-        (&shaders::WHITTED_F32, f32_splitter),
-        (&shaders::WHITTED_F64, f64_splitter),
-        (&shaders::PROBE_RAYS_F32, f32_splitter),
-        (&shaders::PROBE_RAYS_F64, f64_splitter),
-    ] {
+    for (shader, splitter) in [(&shaders::PROBE_RAYS_F32, f32_splitter), (&shaders::PROBE_RAYS_F64, f64_splitter)] {
         let code = instructions(shader);
         let protected = without_contraction(&code);
         let mut splitters = HashSet::new();
@@ -213,5 +211,38 @@ fn every_exact_product_in_the_kernels_has_no_contraction() {
         }
         println!("{}: {} instructions of exact products", shader.name, checked.len());
         assert!(checked.len() > 300, "{}: only {}", shader.name, checked.len());
+    }
+}
+
+/// The kernels' code as it is written, function by function.
+#[test]
+fn every_function_of_the_kernels_that_makes_sums_and_products_exact_has_no_contraction() {
+    let exact = ["two_sum(", "renormalized(", "upper_half(", "two_product(", "add_scaled(", "exact_sum("];
+    for shader in
+        [&shaders::WHITTED_F32, &shaders::WHITTED_F64, &shaders::WHITTED_F32_OCTETS, &shaders::WHITTED_F64_OCTETS]
+    {
+        let code = instructions(shader);
+        let protected = without_contraction(&code);
+        let name_of = |id: u32| {
+            let name = code.iter().find(|i| i.opcode == spirv::NAME && i.words[0] == id);
+            let bytes = name.map(|name| bytemuck::cast_slice::<u32, u8>(&name.words[1..]).to_vec()).unwrap_or_default();
+            String::from_utf8_lossy(&bytes).into_owned()
+        };
+        let mut found = HashSet::new();
+        let mut rest = &code[..];
+        while let Some(begin) = rest.iter().position(|i| i.opcode == spirv::FUNCTION) {
+            let end = begin + rest[begin..].iter().position(|i| i.opcode == spirv::FUNCTION_END).unwrap();
+            let name = name_of(rest[begin].words[1]);
+            if let Some(known) = exact.iter().find(|known| name.starts_with(**known)) {
+                let arithmetic: Vec<_> =
+                    rest[begin..end].iter().filter(|i| spirv::ARITHMETIC.contains(&i.opcode)).collect();
+                let bare = arithmetic.iter().filter(|i| !protected.contains(&i.words[1])).count();
+                assert_eq!(bare, 0, "{}: {name}", shader.name);
+                assert!(!arithmetic.is_empty(), "{}: {name} calculates nothing", shader.name);
+                found.insert(*known);
+            }
+            rest = &rest[end..];
+        }
+        assert_eq!(found.len(), exact.len(), "{}: only {found:?}", shader.name);
     }
 }

@@ -187,12 +187,13 @@ fn fans(cases: &[Case], precision: Precision, batch: u64) -> Vec<(ProbeRay, bool
     cases.par_iter().enumerate().flat_map_iter(at_case).collect()
 }
 
-fn tally(kind: SolidKind, precision: Precision) -> Tally {
+fn tally(kind: SolidKind, precision: Precision, case: impl Fn(&mut Random, SolidKind, Precision) -> Case) -> Tally {
     let device = TestDevice::open();
     let probe = Probe::new(&device, Kernel::Whitted(precision)).unwrap();
     let mut tally = Tally::default();
     for batch in 0..batches() {
-        let cases = cases(kind, precision, batch);
+        let mut random = Random(batch << 8 | kind as u64);
+        let cases: Vec<_> = (0..SOLIDS_A_BATCH).map(|_| case(&mut random, kind, precision)).collect();
         let fans = fans(&cases, precision, batch);
         tally.near_silhouettes += fans.iter().filter(|(_, is_near)| *is_near).count() as u64;
         let rays: Vec<_> = fans.into_iter().map(|(ray, _)| ray).collect();
@@ -208,7 +209,7 @@ fn tally(kind: SolidKind, precision: Precision) -> Tally {
 }
 
 fn bars_are_kept_by(kind: SolidKind, precision: Precision) {
-    let tally = tally(kind, precision);
+    let tally = tally(kind, precision, Case::random);
     assert_eq!((tally.wrong_outside_band, tally.not_finite, tally.wrong_face), (0, 0, 0), "{tally:#?}");
     assert!(tally.hits * 10 > tally.rays * 3, "only {} hits of {} rays", tally.hits, tally.rays);
     assert!(tally.inside * 50 > tally.rays, "only {} hits from inside", tally.inside);
@@ -241,6 +242,19 @@ fn f32_cones_break_no_bar() {
 fn f64_solids_break_no_bar() {
     for kind in SolidKind::ALL {
         bars_are_kept_by(kind, Precision::F64);
+    }
+}
+
+/// In the kernel's frame the bounds of the search are as narrow as in a picture, and narrower than the world's reach
+/// makes them above.
+#[test]
+fn the_search_s_outlines_lose_no_hit() {
+    for precision in [Precision::F32, Precision::F64] {
+        for kind in SolidKind::ALL {
+            let tally = tally(kind, precision, Case::in_kernel_frame);
+            assert_eq!((tally.wrong_outside_band, tally.not_finite), (0, 0), "{tally:#?}");
+            assert!(tally.hits * 10 > tally.rays * 3, "only {} hits of {} rays", tally.hits, tally.rays);
+        }
     }
 }
 

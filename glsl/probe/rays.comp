@@ -7,6 +7,19 @@ layout(local_size_x = 64) in;
 
 #include "whitted/solids.glsl"
 
+// The key of a solid's outline, as if it were the only one.
+uint key_alone(uint slot, Beam beam) {
+    uvec4 first = first_slots(), rows = frame.outlines;
+    uvec4 row = rows + uvec4(1u, 2u, 2u, 2u) * (slot - first);
+    if (HAS_CONES && slot >= first.w)
+        return key_of_cone(texelFetch(outlines, int(row.w)), texelFetch(outlines, int(row.w + 1u)), beam, 0u);
+    if (HAS_CYLINDERS && slot >= first.z)
+        return key_of_cylinder(texelFetch(outlines, int(row.z)), texelFetch(outlines, int(row.z + 1u)), beam, 0u);
+    if (HAS_BOXES && slot >= first.y)
+        return key_of_box(texelFetch(outlines, int(row.y)), texelFetch(outlines, int(row.y + 1u)), beam, 0u);
+    return key_of_sphere(texelFetch(outlines, int(row.x)), vec4(0.0), beam, 0u);
+}
+
 struct ProbeRay {
     Real3 origin;
     Real slot;        // of the solid to try
@@ -43,24 +56,21 @@ void main() {
         uint left = probed.departure == 0.0 ? slot : NOTHING - 1u;
         departure = Departure(left, uint(probed.face), probed.inside == 1.0);
     }
-    // The one slot as a range of its kind, the others empty.
-    Ranges scene = whole_scene();
-    uvec4 place = uvec4(slot) - scene.first_slot;
-    uvec4 begin = min(place, scene.end);
-    bvec4 is_kind = bvec4(slot >= scene.first_slot.x && place.x < scene.end.x,
-                          slot >= scene.first_slot.y && place.y < scene.end.y,
-                          slot >= scene.first_slot.z && place.z < scene.end.z,
-                          slot >= scene.first_slot.w && place.w < scene.end.w);
-    uvec4 end = begin + uvec4(is_kind);
-    Hit hit = nearest_hit(Ray(probed.origin, probed.direction), departure, Ranges(begin, end, scene.first_slot));
+    Ray ray = Ray(probed.origin, probed.direction);
+    Hit hit;
+    bool is_met = meet(slot, ray, departure, hit);
+    bool is_own = departure.slot == slot;
+    // As in a search: what its outline says is missed, or met later, is not met.
+    uint key = key_alone(slot, beam_of(ray));
+    is_met = is_met && (is_own ? departure.inside : key < NO_KEY && key <= (floatBitsToUint(float(hit.t)) | 7u));
 
     ProbeHit result;
     result.primitive = -1.0;
-    if (hit.slot != NOTHING) {
+    if (is_met) {
         result.point = hit.point;
         result.t = hit.t;
         result.normal = hit.normal;
-        result.primitive = materials[hit.slot].primitive;
+        result.primitive = Real(material(slot).primitive);
         result.face = Real(hit.face);
         result.inside = hit.inside ? 1.0 : 0.0;
     }

@@ -8,26 +8,38 @@ BoxLine line_of(Box box, Ray ray) {
     return BoxLine(recentred(ray, box.center, Real3(0.0)));
 }
 
-Interval slab(Line line, Real3 axis, Real3 axis_error, Real half_size, uint face) {
-    Real offset = exact_dot(axis, axis_error, line.closest);
-    Real slope = exact_dot(axis, axis_error, Sum3(line.direction, Real3(0.0)));
-    return between_planes(offset, slope, -half_size, face, half_size, face + 1u);
+// `k`: of the box's axes.
+Interval slab(Box box, Line line, Real3 axis, Real3 axis_error, uint k) {
+    Real offset, slope;
+    if (ARE_BOXES_UPRIGHT) {
+        offset = line.closest.value[k];
+        slope = line.direction[k];
+    } else {
+        offset = exact_dot(axis, axis_error, line.closest);
+        slope = exact_dot(axis, axis_error, Sum3(line.direction, Real3(0.0)));
+    }
+    uint face = SLAB + 2u * k;
+    return between_planes(offset, slope, -box.half_size[k], face, box.half_size[k], face + 1u);
 }
 
 // A tie goes to the lowest axis.
 Interval interval(Box box, BoxLine at) {
-    Interval x = slab(at.line, box.axis_x, box.axis_x_error, box.half_x, SLAB);
-    Interval y = slab(at.line, box.axis_y, box.axis_y_error, box.half_y, SLAB + 2u);
-    Interval z = slab(at.line, box.axis_z, box.axis_z_error, box.half_z, SLAB + 4u);
+    Interval x = slab(box, at.line, box.axis_x, box.axis_x_error, 0u);
+    Interval y = slab(box, at.line, box.axis_y, box.axis_y_error, 1u);
+    Interval z = slab(box, at.line, box.axis_z, box.axis_z_error, 2u);
     return intersection(intersection(x, y), z);
+}
+
+// From the box's centre, in its own axes.
+Real3 in_axes(Box box, Real3 from_center) {
+    if (ARE_BOXES_UPRIGHT) return from_center;
+    return Real3(dot(box.axis_x, from_center), dot(box.axis_y, from_center), dot(box.axis_z, from_center));
 }
 
 // Distance from a point inside to the surface; negative outside, where its size is at most the distance.
 Real depth(Box box, Real3 from_anchor) {
-    Real x = box.half_x - abs(dot(box.axis_x, from_anchor));
-    Real y = box.half_y - abs(dot(box.axis_y, from_anchor));
-    Real z = box.half_z - abs(dot(box.axis_z, from_anchor));
-    return min(x, min(y, z));
+    Real3 below = box.half_size - abs(in_axes(box, from_anchor));
+    return min(below.x, min(below.y, below.z));
 }
 
 Real size(Box box) { return box.size; }
@@ -37,7 +49,7 @@ void surface(Box box, BoxLine at, Real s, uint face, out Real3 point, out Real3 
     uint axis = (face - SLAB) >> 1;
     bool positive = ((face - SLAB) & 1u) == 1u;
     Real3 across = axis == 0u ? box.axis_x : (axis == 1u ? box.axis_y : box.axis_z);
-    Real half_size = axis == 0u ? box.half_x : (axis == 1u ? box.half_y : box.half_z);
+    Real half_size = axis == 0u ? box.half_size.x : (axis == 1u ? box.half_size.y : box.half_size.z);
     normal = positive ? across : -across;
     precise Real3 from_center = at.line.closest.value + (at.line.closest.error + s * at.line.direction);
     precise Real above = half_size - dot(normal, from_center);

@@ -1,17 +1,23 @@
 // The push constants; `WhittedFrame` of src/tracer/whitted_records.rs.
 struct WhittedFrame {
     uvec4 counts;     // of spheres, boxes, cylinders, cones
+    uvec4 outlines;   // where their outlines begin, rows
     uint tile_origin; // pixels, x | y << 16
     uint image_size;  // pixels, width | height << 16
     uint depth;       // generations to trace
     uint light_count;
+    float reach;      // half of the largest coordinate of a solid or of a ray's origin
     uint writes_remainder; // not 0: what the colour loses by rounding to float, instead of the colour
 };
 layout(push_constant, std430) uniform Push { WhittedFrame frame; };
 
-// All primitives of the scene.
-Ranges whole_scene() {
-    uvec4 counts = frame.counts;
-    uvec4 first_slot = uvec4(0u, counts.x, counts.x + counts.y, counts.x + counts.y + counts.z);
-    return Ranges(uvec4(0u), counts, first_slot);
+const uint SPHERE = 0u;
+const uint BOX = 1u;
+const uint CYLINDER = 2u;
+const uint CONE = 3u;
+
+// Of each kind, which takes whole groups of eight.
+uvec4 first_slots() {
+    uvec4 counts = frame.counts + 7u & ~7u;
+    return uvec4(0u, counts.x, counts.x + counts.y, counts.x + counts.y + counts.z);
 }

@@ -32,5 +32,6 @@ bool meet(SOLID solid, Ray ray, uint origin, uint own_face, out Hit hit) {
     surface(solid, at, s, hit.face, hit.point, hit.normal);
     if (leaves_here) hit.point = ray.origin;
     if (hit.inside) hit.normal = -hit.normal;
+    hit.size = size(solid);
     return is_ahead || leaves_here;
 }

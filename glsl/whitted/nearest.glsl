@@ -1,104 +1,71 @@
-// The nearest hit among solids of all kinds, and whether anything lies before a point.
+// The exact solve of one candidate, of whatever kind, and which of two hits counts.
 
-// `begin` and `end` count within each kind; `first_slot` is where the kind begins.
-struct Ranges {
-    uvec4 begin;
-    uvec4 end;
-    uvec4 first_slot;
-};
+#define SOLID Sphere
+#define SOLID_LINE SphereLine
+#include "meet.glsl"
+#undef SOLID
+#undef SOLID_LINE
+
+#define SOLID Box
+#define SOLID_LINE BoxLine
+#include "meet.glsl"
+#undef SOLID
+#undef SOLID_LINE
+
+#define SOLID Cylinder
+#define SOLID_LINE AxisLine
+#include "meet.glsl"
+#undef SOLID
+#undef SOLID_LINE
+
+#define SOLID Cone
+#define SOLID_LINE AxisLine
+#include "meet.glsl"
+#undef SOLID
+#undef SOLID_LINE
+
+uint origin_of(Departure departure, uint slot) {
+    if (departure.slot == NOTHING) return FREE;
+    return departure.slot == slot ? OWN_INSIDE : OTHER_SURFACE;
+}
+
+// Where the ray meets the solid of a slot, if it does.
+bool meet(uint slot, Ray ray, Departure departure, out Hit hit) {
+    uint origin = origin_of(departure, slot);
+    uvec4 first = first_slots();
+    bool is_met = false;
+    // A kind alone needs not be told from others.
+    bool is_only_kind = int(HAS_SPHERES) + int(HAS_BOXES) + int(HAS_CYLINDERS) + int(HAS_CONES) == 1;
+    if (HAS_SPHERES && (is_only_kind || slot < first.y)) {
+        is_met = meet(sphere(slot), ray, origin, departure.face, hit);
+    } else if (HAS_BOXES && (is_only_kind || slot < first.z)) {
+        is_met = meet(box(slot - first.y), ray, origin, departure.face, hit);
+    } else if (HAS_CYLINDERS && (is_only_kind || slot < first.w)) {
+        is_met = meet(cylinder(slot - first.z), ray, origin, departure.face, hit);
+    } else if (HAS_CONES) {
+        is_met = meet(cone(slot - first.w), ray, origin, departure.face, hit);
+    }
+    hit.slot = slot;
+    return is_met;
+}
 
 // Whether two hits may lie in one plane, for all that their numbers tell. Each t is off by at most
-// (u * t + 4u * size) / |cosine| (NUMERICS.md, T), and a bound's radius is no less than its solid's size; unit normals
-// are off by 4u each.
+// (u * t + 4u * size) / |cosine| (NUMERICS.md, T); unit normals are off by 4u each.
 bool are_coplanar(Hit a, Hit b, Ray ray) {
     if (dot(a.normal, b.normal) < 1.0 - 16.0 * UNIT_ROUNDOFF) return false;
-    Real error = UNIT_ROUNDOFF * (a.t + b.t + 4.0 * (bounds[a.slot].w + bounds[b.slot].w));
+    Real error = UNIT_ROUNDOFF * (a.t + b.t + 4.0 * (a.size + b.size));
     return abs(a.t - b.t) * abs(dot(a.normal, ray.direction)) <= error;
 }
 
 // A tie goes to the primitive that the scene names first, and so does a plane that two faces share.
-bool is_nearer(Hit hit, Hit nearest, Ray ray) {
-    if (nearest.slot == NOTHING) return true;
-    if (hit.t == nearest.t || are_coplanar(hit, nearest, ray))
-        return materials[hit.slot].primitive < materials[nearest.slot].primitive;
+bool is_nearer(Hit hit, uint primitive, Hit nearest, uint nearest_primitive, Ray ray) {
+    if (hit.t == nearest.t || are_coplanar(hit, nearest, ray)) return primitive < nearest_primitive;
     return hit.t < nearest.t;
 }
 
-#define SOLID Sphere
-#define SOLID_LINE SphereLine
-#define SOLIDS spheres
-#define NEAREST nearest_sphere
-#define HIDES sphere_hides
-#include "meet.glsl"
-#include "search.glsl"
-#undef SOLID
-#undef SOLID_LINE
-#undef SOLIDS
-#undef NEAREST
-#undef HIDES
-
-#define SOLID Box
-#define SOLID_LINE BoxLine
-#define SOLIDS boxes
-#define NEAREST nearest_box
-#define HIDES box_hides
-#include "meet.glsl"
-#include "search.glsl"
-#undef SOLID
-#undef SOLID_LINE
-#undef SOLIDS
-#undef NEAREST
-#undef HIDES
-
-#define SOLID Cylinder
-#define SOLID_LINE AxisLine
-#define SOLIDS cylinders
-#define NEAREST nearest_cylinder
-#define HIDES cylinder_hides
-#include "meet.glsl"
-#include "search.glsl"
-#undef SOLID
-#undef SOLID_LINE
-#undef SOLIDS
-#undef NEAREST
-#undef HIDES
-
-#define SOLID Cone
-#define SOLID_LINE AxisLine
-#define SOLIDS cones
-#define NEAREST nearest_cone
-#define HIDES cone_hides
-#include "meet.glsl"
-#include "search.glsl"
-#undef SOLID
-#undef SOLID_LINE
-#undef SOLIDS
-#undef NEAREST
-#undef HIDES
-
-Hit nearest_hit(Ray ray, Departure departure, Ranges ranges) {
-    Hit hit;
-    hit.t = 0.0;
-    hit.slot = NOTHING;
-    uvec4 begin = ranges.begin, end = ranges.end, first = ranges.first_slot;
-    if (HAS_SPHERES) nearest_sphere(ray, departure, begin[SPHERE], end[SPHERE], first[SPHERE], hit);
-    if (HAS_BOXES) nearest_box(ray, departure, begin[BOX], end[BOX], first[BOX], hit);
-    if (HAS_CYLINDERS) nearest_cylinder(ray, departure, begin[CYLINDER], end[CYLINDER], first[CYLINDER], hit);
-    if (HAS_CONES) nearest_cone(ray, departure, begin[CONE], end[CONE], first[CONE], hit);
-    return hit;
-}
-
-// Whether a solid lies on the ray before a target at a distance.
-bool is_hidden(Ray ray, Departure departure, Real3 target, Real distance, Ranges ranges) {
-    uvec4 begin = ranges.begin, end = ranges.end, first = ranges.first_slot;
-    bool hidden = false;
-    if (HAS_SPHERES)
-        hidden = sphere_hides(ray, departure, target, distance, begin[SPHERE], end[SPHERE], first[SPHERE]);
-    if (HAS_BOXES && !hidden)
-        hidden = box_hides(ray, departure, target, distance, begin[BOX], end[BOX], first[BOX]);
-    if (HAS_CYLINDERS && !hidden)
-        hidden = cylinder_hides(ray, departure, target, distance, begin[CYLINDER], end[CYLINDER], first[CYLINDER]);
-    if (HAS_CONES && !hidden)
-        hidden = cone_hides(ray, departure, target, distance, begin[CONE], end[CONE], first[CONE]);
-    return hidden;
+// Whether a hit lies before a target at a distance along the ray. A target on the solid's surface, to rounding, is not
+// hidden by it from the side the ray comes from.
+bool is_before(Hit hit, Ray ray, Real3 target, Real distance) {
+    Real height_of_target = (distance - hit.t) * abs(dot(hit.normal, ray.direction));
+    return height_of_target > SURFACE_ERROR * (largest_component(target) + hit.size);
 }

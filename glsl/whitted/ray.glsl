@@ -25,7 +25,8 @@ struct Hit {
     Real t;
     Real3 point;
     Real3 normal; // unit, towards the side the ray came from
-    uint slot;    // or NOTHING
+    Real size;    // of the solid
+    uint slot;
     uint face;
     bool inside;  // the ray came from within
 };

@@ -15,6 +15,12 @@ const Real UNIT_ROUNDOFF = 1.1102230246251565e-16LF;
 // 2^27 + 1: cuts 53 bits in two halves.
 const Real SPLITTER = 134217729.0LF;
 const Real LARGEST = 1.7976931348623157e308LF;
+// A row of four reals from a texel buffer.
+#define Rows usamplerBuffer
+#define ROW(rows, index) of_two_texels(texelFetch(rows, int(2u * (index))), texelFetch(rows, int(2u * (index) + 1u)))
+Real4 of_two_texels(uvec4 xy, uvec4 zw) {
+    return Real4(packDouble2x32(xy.xy), packDouble2x32(xy.zw), packDouble2x32(zw.xy), packDouble2x32(zw.zw));
+}
 #else
 #define Real float
 #define Real3 vec3
@@ -23,6 +29,9 @@ const Real UNIT_ROUNDOFF = 5.9604644775390625e-8;
 // 2^12 + 1: cuts 24 bits in two halves.
 const Real SPLITTER = 4097.0;
 const Real LARGEST = 3.4028234663852886e38;
+// A row of four reals from a texel buffer.
+#define Rows samplerBuffer
+#define ROW(rows, index) texelFetch(rows, int(index))
 #endif
 
 // Whether the device rounds a fma once, which neither Vulkan nor GLSL promises.

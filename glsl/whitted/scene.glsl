@@ -1,9 +1,9 @@
 // The scene as it lies in memory: rows of four reals, so that the layout is the same for float and double.
 // src/tracer/whitted_records.rs writes them.
 //
-// Kernel frame: the world frame with the camera at its origin, times a power of two that brings the largest primitive
-// to about 1. Within a kind the scene's order is kept; the kinds lie behind each other, and a primitive's place in
-// that row is its slot.
+// Kernel frame: the world frame with the camera at its origin, times a power of two that brings the farthest reach of
+// a primitive below 2. Within a kind the solids lie in the order of its hierarchy; the kinds lie behind each other, and
+// a primitive's place in that row is its slot.
 
 struct Sphere {
     Real3 center;
@@ -13,18 +13,13 @@ struct Sphere {
 struct Box {
     Real3 center;
     Real size;      // the largest half size
+    Real3 half_size;
     Real3 axis_x;   // + axis_x_error: unit, kernel frame
-    Real half_x;
     Real3 axis_y;
-    Real half_y;
     Real3 axis_z;
-    Real half_z;
     Real3 axis_x_error;
-    Real unused_0;
     Real3 axis_y_error;
-    Real unused_1;
     Real3 axis_z_error;
-    Real unused_2;
 };
 
 struct Cylinder {
@@ -47,8 +42,6 @@ struct Cone {
     Real reach;         // of the bounding sphere about the apex
     Real sine;          // of the half-angle
     Real cosine;
-    Real unused_0;
-    Real unused_1;
 };
 
 struct Material {
@@ -56,15 +49,13 @@ struct Material {
     Real ambient;
     Real diffuse;
     Real specular;
-    Real primitive;       // index in the scene
-    Real unused;
+    uint primitive;       // index in the scene
 };
 
 struct Light {
     Real3 position;
     Real ball_radius;
     Real3 intensity;      // linear RGB
-    Real unused;
 };
 
 struct View {
@@ -75,26 +66,86 @@ struct View {
     Real3 ahead;
     Real window_low;      // -1: the course's window [-3,1]^2; 0: the centred window [-1,1]^2
     Real3 background;     // linear RGB
-    Real unused;
 };
 
-layout(binding = 1, std430) readonly buffer ViewAndLights { View view; Light lights[]; };
-// By slot: a sphere around the primitive, with a radius rounded up.
-layout(binding = 2, std430) readonly buffer Bounds { Real4 bounds[]; };
-layout(binding = 3, std430) readonly buffer Spheres { Sphere spheres[]; };
-layout(binding = 4, std430) readonly buffer Boxes { Box boxes[]; };
-layout(binding = 5, std430) readonly buffer Cylinders { Cylinder cylinders[]; };
-layout(binding = 6, std430) readonly buffer Cones { Cone cones[]; };
-// By slot.
-layout(binding = 7, std430) readonly buffer Materials { Material materials[]; };
-
-const uint SPHERE = 0u;
-const uint BOX = 1u;
-const uint CYLINDER = 2u;
-const uint CONE = 3u;
-
-// Kinds that are not there cost nothing.
+// What a scene lacks costs nothing: the pipeline is made for what there is.
 layout(constant_id = 1) const bool HAS_SPHERES = true;
 layout(constant_id = 2) const bool HAS_BOXES = true;
 layout(constant_id = 3) const bool HAS_CYLINDERS = true;
 layout(constant_id = 4) const bool HAS_CONES = true;
+layout(constant_id = 8) const bool ARE_BOXES_UPRIGHT = false;
+layout(constant_id = 9) const uint SPHERE_LEVELS = 0u;
+layout(constant_id = 10) const uint BOX_LEVELS = 0u;
+layout(constant_id = 11) const uint CYLINDER_LEVELS = 0u;
+layout(constant_id = 12) const uint CONE_LEVELS = 0u;
+
+// Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 turns of all of them together: there
+// the search ends before that, and says so.
+layout(constant_id = 7) const uint LOOP_TURNS = 0xFFFFFFFFu;
+uint turns = 0u;
+
+// Rows come through texel buffers: a CPU driver fetches a row for eight invocations at once there, and goes from one to
+// the next to read a storage buffer.
+layout(binding = 1) uniform Rows view_and_lights;
+// What finds candidates, by kind; see hierarchy.glsl.
+layout(binding = 2) uniform samplerBuffer outlines;
+layout(binding = 3) uniform Rows sphere_rows;
+layout(binding = 4) uniform Rows box_rows;
+layout(binding = 5) uniform Rows cylinder_rows;
+layout(binding = 6) uniform Rows cone_rows;
+// By slot.
+layout(binding = 7) uniform Rows material_rows;
+
+View view() {
+    Real4 a = ROW(view_and_lights, 0u), b = ROW(view_and_lights, 1u);
+    Real4 c = ROW(view_and_lights, 2u), d = ROW(view_and_lights, 3u);
+    return View(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz);
+}
+
+Light light(uint index) {
+    uint first = 4u + 2u * index;
+    Real4 a = ROW(view_and_lights, first), b = ROW(view_and_lights, first + 1u);
+    return Light(a.xyz, a.w, b.xyz);
+}
+
+Material material(uint slot) {
+    Real4 a = ROW(material_rows, 2u * slot), b = ROW(material_rows, 2u * slot + 1u);
+    return Material(a.xyz, a.w, b.x, b.y, uint(b.z));
+}
+
+// The solids of a kind are counted by themselves.
+Sphere sphere(uint index) {
+    Real4 a = ROW(sphere_rows, index);
+    return Sphere(a.xyz, a.w);
+}
+
+Box box(uint index) {
+    uint first = 7u * index;
+    Box box;
+    Real4 a = ROW(box_rows, first);
+    box.center = a.xyz;
+    box.size = a.w;
+    Real4 x = ROW(box_rows, first + 1u), y = ROW(box_rows, first + 2u), z = ROW(box_rows, first + 3u);
+    box.half_size = Real3(x.w, y.w, z.w);
+    box.axis_x = ARE_BOXES_UPRIGHT ? Real3(1.0, 0.0, 0.0) : x.xyz;
+    box.axis_y = ARE_BOXES_UPRIGHT ? Real3(0.0, 1.0, 0.0) : y.xyz;
+    box.axis_z = ARE_BOXES_UPRIGHT ? Real3(0.0, 0.0, 1.0) : z.xyz;
+    box.axis_x_error = ARE_BOXES_UPRIGHT ? Real3(0.0) : ROW(box_rows, first + 4u).xyz;
+    box.axis_y_error = ARE_BOXES_UPRIGHT ? Real3(0.0) : ROW(box_rows, first + 5u).xyz;
+    box.axis_z_error = ARE_BOXES_UPRIGHT ? Real3(0.0) : ROW(box_rows, first + 6u).xyz;
+    return box;
+}
+
+Cylinder cylinder(uint index) {
+    uint first = 4u * index;
+    Real4 a = ROW(cylinder_rows, first), b = ROW(cylinder_rows, first + 1u);
+    Real4 c = ROW(cylinder_rows, first + 2u), d = ROW(cylinder_rows, first + 3u);
+    return Cylinder(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz, d.w);
+}
+
+Cone cone(uint index) {
+    uint first = 4u * index;
+    Real4 a = ROW(cone_rows, first), b = ROW(cone_rows, first + 1u);
+    Real4 c = ROW(cone_rows, first + 2u), d = ROW(cone_rows, first + 3u);
+    return Cone(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.x, d.y);
+}

@@ -1,37 +1,72 @@
-// Included once for each kind, with SOLIDS the array of its records. The solids are counted within the kind; the first
-// of them has the slot `first_slot`.
+// All kinds' hierarchies, for the next candidate of a ray.
+#include "boxes_of_eight.glsl"
 
-void NEAREST(Ray ray, Departure departure, uint begin, uint end, uint first_slot, inout Hit nearest) {
-    for (uint chunk = begin; chunk < end && turns < LOOP_TURNS; chunk += 32u) {
-        turns += CHUNK_TURNS;
-        Real limit = nearest.slot == NOTHING ? LARGEST : nearest.t;
-        uint left = candidates(ray, departure, first_slot + chunk, min(32u, end - chunk), limit);
-        while (left != 0u) {
-            uint index = chunk + uint(findLSB(left));
-            left &= left - 1u;
-            turns++;
-            uint slot = first_slot + index;
-            Hit hit;
-            bool is_met = meet(SOLIDS[index], ray, origin_of(departure, slot), departure.face, hit);
-            hit.slot = slot;
-            if (is_met && is_nearer(hit, nearest, ray)) nearest = hit;
-        }
-    }
-}
+#define SEARCH search_spheres
+#define TRY_EIGHT try_eight_spheres
+#define KEY_OF key_of_sphere
+#define SETTLE settle_sphere
+#define OUTLINE_ROWS 1u
+#define KIND 0u
+#define LEVELS SPHERE_LEVELS
+#include "hierarchy.glsl"
+#undef SEARCH
+#undef TRY_EIGHT
+#undef KEY_OF
+#undef SETTLE
+#undef OUTLINE_ROWS
+#undef KIND
+#undef LEVELS
 
-bool HIDES(Ray ray, Departure departure, Real3 target, Real distance, uint begin, uint end, uint first_slot) {
-    bool hidden = false;
-    for (uint chunk = begin; chunk < end && !hidden && turns < LOOP_TURNS; chunk += 32u) {
-        turns += CHUNK_TURNS;
-        uint left = candidates(ray, departure, first_slot + chunk, min(32u, end - chunk), distance);
-        while (left != 0u && !hidden) {
-            uint index = chunk + uint(findLSB(left));
-            left &= left - 1u;
-            turns++;
-            Hit hit;
-            bool is_met = meet(SOLIDS[index], ray, origin_of(departure, first_slot + index), departure.face, hit);
-            hidden = is_met && is_before(hit, ray, target, distance, size(SOLIDS[index]));
-        }
-    }
-    return hidden;
+#define SEARCH search_boxes
+#define TRY_EIGHT try_eight_boxes
+#define KEY_OF key_of_box
+#define SETTLE settle_box
+#define OUTLINE_ROWS 2u
+#define KIND 1u
+#define LEVELS BOX_LEVELS
+#include "hierarchy.glsl"
+#undef SEARCH
+#undef TRY_EIGHT
+#undef KEY_OF
+#undef SETTLE
+#undef KIND
+#undef LEVELS
+
+#define SEARCH search_cylinders
+#define TRY_EIGHT try_eight_cylinders
+#define KEY_OF key_of_cylinder
+#define SETTLE settle_cylinder
+#define KIND 2u
+#define LEVELS CYLINDER_LEVELS
+#include "hierarchy.glsl"
+#undef SEARCH
+#undef TRY_EIGHT
+#undef KEY_OF
+#undef SETTLE
+#undef KIND
+#undef LEVELS
+
+#define SEARCH search_cones
+#define TRY_EIGHT try_eight_cones
+#define KEY_OF key_of_cone
+#define SETTLE settle_cone
+#define KIND 3u
+#define LEVELS CONE_LEVELS
+#include "hierarchy.glsl"
+#undef SEARCH
+#undef TRY_EIGHT
+#undef KEY_OF
+#undef SETTLE
+#undef OUTLINE_ROWS
+#undef KIND
+#undef LEVELS
+
+// A kind's search shrinks the limit for the next.
+Found next_candidate(Beam beam, float limit, bool is_searching) {
+    Found found = Found(NO_KEY, 0, NO_KEY, limit);
+    if (HAS_SPHERES) search_spheres(beam, is_searching, found);
+    if (HAS_BOXES) search_boxes(beam, is_searching, found);
+    if (HAS_CYLINDERS) search_cylinders(beam, is_searching, found);
+    if (HAS_CONES) search_cones(beam, is_searching, found);
+    return found;
 }

@@ -13,24 +13,19 @@ Real fifth_power(Real x) {
     return square * square * x;
 }
 
-// Linear RGB, without reflections.
-Real3 emitted(Hit hit, Real3 ray_direction, Material material, Departure departure, Ranges ranges) {
-    Real3 sum = material.ambient * material.color;
-    for (uint i = 0u; i < frame.light_count; i++) {
-        turns++;
-        Light light = lights[i];
-        precise Real3 to_light = light.position - hit.point;
-        Real distance = sqrt(dot(to_light, to_light));
-        // A light at the hit point gives nothing.
-        if (!(distance > 0.0)) continue;
-        precise Real3 light_direction = to_light / distance;
-        precise Real cosine = dot(hit.normal, light_direction);
-        if (!(cosine > 0.0)) continue;
-        if (is_hidden(Ray(hit.point, light_direction), departure, light.position, distance, ranges)) continue;
-        Real3 mirrored_light = reflected(-light_direction, hit.normal);
-        Real highlight = fifth_power(max(-dot(mirrored_light, ray_direction), Real(0.0)));
-        Real3 received = (material.diffuse * cosine) * material.color + material.specular * highlight;
-        sum = limited(sum + received * light.intensity);
-    }
-    return sum;
+// Unit, from a point to a light; not a number where they are one.
+Real3 towards(Light light, Real3 point, out Real light_distance) {
+    precise Real3 to_light = light.position - point;
+    precise Real far = sqrt(dot(to_light, to_light));
+    precise Real3 direction = to_light / far;
+    light_distance = far;
+    return direction;
+}
+
+// What of a light that nothing hides comes back along the ray, from a surface at this cosine to it.
+Real3 sent_back(Material material, Real3 normal, Real3 ray_direction, Real3 light_direction, Real cosine, Light light) {
+    Real3 mirrored_light = reflected(-light_direction, normal);
+    Real highlight = fifth_power(max(-dot(mirrored_light, ray_direction), Real(0.0)));
+    Real3 received = (material.diffuse * cosine) * material.color + material.specular * highlight;
+    return received * light.intensity;
 }

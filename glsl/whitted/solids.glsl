@@ -1,5 +1,7 @@
 // Ray against solids: all that the kernel and its probe share.
+#include "packet.glsl"
 #include "real.glsl"
+#include "frame.glsl"
 #include "scene.glsl"
 #include "ray.glsl"
 #include "sphere.glsl"
@@ -7,6 +9,6 @@
 #include "axis.glsl"
 #include "cylinder.glsl"
 #include "cone.glsl"
-#include "candidates.glsl"
 #include "nearest.glsl"
-#include "frame.glsl"
+#include "beam.glsl"
+#include "outlines.glsl"

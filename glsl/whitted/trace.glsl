@@ -1,7 +1,7 @@
 // A primary ray through all its generations.
 
 // The ray through the centre of a pixel counted from the top left; the camera is the kernel frame's origin.
-Ray primary_ray(uvec2 pixel, uvec2 size) {
+Ray primary_ray(uvec2 pixel, uvec2 size, View view) {
     // Twice the pixel centre is a whole number: exact.
     precise Real x = Real(2u * pixel.x + 1u) / Real(2u * size.x);
     precise Real y = Real(2u * (size.y - 1u - pixel.y) + 1u) / Real(2u * size.y);
@@ -15,42 +15,141 @@ Ray primary_ray(uvec2 pixel, uvec2 size) {
     return Ray(Real3(0.0), unit(direction));
 }
 
-// The light whose ball is nearer than the hit, or NOTHING.
-uint light_ball_before(Ray ray, Hit hit) {
+// The nearest light whose ball the ray meets, or NOTHING, and where.
+uint light_ball_ahead(Ray ray, out Real t) {
     uint seen = NOTHING;
-    Real limit = hit.slot == NOTHING ? LARGEST : hit.t;
-    for (uint i = 0u; i < frame.light_count; i++) {
+    t = LARGEST;
+    uint i = 0u;
+    for (;;) {
+        turns++;
+        Light light = light(i);
         Hit ball;
-        bool is_met = meet(Sphere(lights[i].position, lights[i].ball_radius), ray, FREE, CURVED, ball);
-        if (is_met && ball.t < limit) {
-            seen = i;
-            limit = ball.t;
-        }
+        bool is_met = meet(Sphere(light.position, light.ball_radius), ray, FREE, CURVED, ball);
+        bool is_seen = i < frame.light_count && is_met && ball.t < t;
+        seen = is_seen ? i : seen;
+        t = is_seen ? ball.t : t;
+        i++;
+        if (!(i < frame.light_count)) break;
     }
     return seen;
 }
 
-// Linear RGB.
-Real3 trace(Ray ray, Ranges ranges) {
-    Departure departure = Departure(NOTHING, CURVED, false);
-    Real weight = 1.0;
+// What a ray is cast for.
+const uint ENDED = 0u;
+const uint TO_NEAREST = 1u;
+const uint TO_LIGHT = 2u;
+
+// A bound for what lies at or before t, from the exact t.
+float up_to(Real t) { return float(min(t, Real(FAR))) * (1.0 + 4.0 * FLOAT_ROUNDOFF); }
+
+// Linear RGB. Every turn of the loop looks for one candidate on one ray and solves that: rays of all generations, to the
+// nearest hit and to lights, go the same way, so that neighbours in different stages do not wait for each other, and one
+// exact solve stands in the code. `is_there`: whether the ray counts.
+Real3 trace(Ray ray, bool is_there, Real3 background) {
     Real3 color = Real3(0.0);
-    for (uint generation = 0u; generation < frame.depth && weight != 0.0 && turns < LOOP_TURNS; generation++) {
+    Real weight = 1.0;
+    uint generation = 0u;
+    uint purpose = is_there ? TO_NEAREST : ENDED;
+    Departure departure = Departure(NOTHING, CURVED, false);
+    Real ball_t;
+    uint ball = light_ball_ahead(ray, ball_t);
+
+    // The nearest hit so far of the ray, and then what its lights add up to.
+    Hit nearest;
+    Material matter;
+    Real3 emitted, ray_direction = ray.direction;
+    uint light_index = 0u;
+    Light lamp;
+    Real light_distance, cosine;
+    bool is_hit = false;
+
+    // Where the search stands.
+    float limit = FAR;
+    uint after_key = 0u;
+    int after_group = -1;
+    bool is_own_due = false; // the solid that the ray leaves inwards is to be solved first
+
+    for (;;) {
         turns++;
-        Hit hit = nearest_hit(ray, departure, ranges);
-        uint ball = generation == 0u ? light_ball_before(ray, hit) : NOTHING;
-        bool ends = ball != NOTHING || hit.slot == NOTHING;
-        if (ends) {
-            Real3 seen = ball != NOTHING ? lights[ball].intensity : view.background;
-            color = limited(color + weight * seen);
-            weight = 0.0;
-        } else {
-            Material material = materials[hit.slot];
-            departure = Departure(hit.slot, hit.face, hit.inside);
-            color = limited(color + weight * emitted(hit, ray.direction, material, departure, ranges));
-            weight *= material.specular;
-            ray = Ray(hit.point, reflected(ray.direction, hit.normal));
+        Beam beam = beam_of(ray);
+        beam.skipped = departure.slot;
+        beam.after_key = after_key;
+        beam.after_group = after_group;
+        beam.target_size = purpose == TO_LIGHT ? float(min(largest_component(lamp.position), Real(FAR))) : -1.0;
+        Found found = next_candidate(beam, limit, purpose != ENDED && !is_own_due);
+        bool is_hidden = purpose == TO_LIGHT && !is_own_due && found.limit == HIDDEN;
+        uint last_key = uint(floatBitsToInt(limit)) | 7u;
+        bool is_candidate = is_own_due || (found.key <= last_key && !is_hidden);
+
+        Hit hit;
+        uint found_slot = 8u * uint(found.group) + (found.key & 7u);
+        uint slot = is_own_due ? departure.slot : (is_candidate ? found_slot : 0u);
+        bool is_met = meet(slot, ray, departure, hit) && is_candidate;
+        Material met = material(slot);
+        if (purpose == TO_NEAREST && is_met &&
+            (!is_hit || is_nearer(hit, met.primitive, nearest, matter.primitive, ray))) {
+            nearest = hit;
+            matter = met;
+            is_hit = true;
+            limit = up_to(hit.t);
         }
+        is_hidden = is_hidden || (purpose == TO_LIGHT && is_met && is_before(hit, ray, lamp.position, light_distance));
+        // Whether another candidate may come before what is known.
+        last_key = uint(floatBitsToInt(limit)) | 7u;
+        bool goes_on = is_candidate && !is_hidden && (is_own_due || found.next_key <= last_key);
+        after_key = is_own_due ? 0u : found.key;
+        after_group = is_own_due ? -1 : found.group;
+        is_own_due = false;
+
+        if (purpose != ENDED && !goes_on) {
+            bool is_light = purpose == TO_LIGHT;
+            bool is_last = !is_light && (!is_hit || (generation == 0u && ball_t < nearest.t));
+            Real3 more = sent_back(matter, nearest.normal, ray_direction, ray.direction, cosine, lamp);
+            if (is_light && !is_hidden) emitted = limited(emitted + more);
+            if (is_last) {
+                Real3 seen = generation == 0u && ball != NOTHING ? light(ball).intensity : background;
+                color = limited(color + weight * seen);
+            }
+            if (!is_light && !is_last) {
+                departure = Departure(nearest.slot, nearest.face, nearest.inside);
+                emitted = matter.ambient * matter.color;
+                ray_direction = ray.direction;
+            }
+            light_index = is_light ? light_index + 1u : 0u;
+
+            // On to the next light on this side of the surface, or to the reflection.
+            bool is_lit;
+            Real3 light_direction;
+            for (;;) {
+                turns++;
+                lamp = light(light_index);
+                light_direction = towards(lamp, nearest.point, light_distance);
+                cosine = dot(nearest.normal, light_direction);
+                // A light at the hit point gives nothing.
+                is_lit = light_index < frame.light_count && light_distance > 0.0 && cosine > 0.0;
+                light_index += is_lit ? 0u : 1u;
+                if (!(!is_lit && light_index < frame.light_count)) break;
+            }
+
+            is_own_due = departure.inside;
+            after_key = 0u;
+            after_group = -1;
+            if (is_lit) {
+                ray = Ray(nearest.point, light_direction);
+                purpose = TO_LIGHT;
+                limit = up_to(light_distance);
+            } else {
+                if (!is_last) color = limited(color + weight * emitted);
+                weight *= matter.specular;
+                generation++;
+                ray = Ray(nearest.point, reflected(ray_direction, nearest.normal));
+                purpose = weight != 0.0 && generation < frame.depth ? TO_NEAREST : ENDED;
+                limit = FAR;
+                is_hit = false;
+            }
+            if (is_last) purpose = ENDED;
+        }
+        if (!(any_of_packet(purpose != ENDED) && turns < LOOP_TURNS)) break;
     }
     return color;
 }

@@ -20,10 +20,33 @@ pub enum BufferKind {
     Storage,
     /// Written by the host before the first use, read by shaders; of any length that the device allows.
     Records,
+    /// As [`BufferKind::Records`], read by shaders as texels of four numbers.
+    Texels(Texel),
     /// Written by copies, read by the host.
     Readback,
     /// Written by the host, read by copies.
     Upload,
+}
+
+/// What a texel of 16 bytes holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Texel {
+    /// Four `f32`.
+    Floats,
+    /// Four `u32`, or the bits of two `f64`.
+    Bits,
+}
+
+impl Texel {
+    pub const BYTES: u64 = 16;
+
+    /// Every Vulkan device must offer both for texel buffers.
+    fn format(self) -> vk::Format {
+        match self {
+            Self::Floats => vk::Format::R32G32B32A32_SFLOAT,
+            Self::Bits => vk::Format::R32G32B32A32_UINT,
+        }
+    }
 }
 
 impl BufferKind {
@@ -31,6 +54,7 @@ impl BufferKind {
         match self {
             Self::Uniform => vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             Self::Storage | Self::Records => vk::BufferUsageFlags::STORAGE_BUFFER,
+            Self::Texels(_) => vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER,
             Self::Readback => vk::BufferUsageFlags::TRANSFER_DST,
             Self::Upload => vk::BufferUsageFlags::TRANSFER_SRC,
         }
@@ -38,7 +62,7 @@ impl BufferKind {
 
     fn location(self) -> MemoryLocation {
         match self {
-            Self::Uniform | Self::Records | Self::Upload => MemoryLocation::CpuToGpu,
+            Self::Uniform | Self::Records | Self::Texels(_) | Self::Upload => MemoryLocation::CpuToGpu,
             Self::Storage | Self::Readback => MemoryLocation::GpuToCpu,
         }
     }
@@ -52,6 +76,8 @@ impl BufferKind {
 /// A buffer that the host has mapped.
 pub struct Buffer {
     pub(super) raw: vk::Buffer,
+    /// Of [`BufferKind::Texels`]; else null.
+    pub(super) view: vk::BufferView,
     pub(super) name: String,
     pub(super) kind: BufferKind,
     pub(super) id: ResourceId,
@@ -71,6 +97,7 @@ impl Buffer {
         // Dropped, and so freed, by any failure below.
         let mut buffer = Self {
             raw,
+            view: vk::BufferView::null(),
             name: name.to_owned(),
             kind,
             id: ResourceId::fresh(),
@@ -87,6 +114,14 @@ impl Buffer {
         unsafe { device.raw.bind_buffer_memory(raw, allocation.memory(), allocation.offset()) }
             .map_err(GpuError::call(|| format!("bind the memory of buffer '{name}'")))?;
 
+        if let BufferKind::Texels(texel) = kind {
+            let info =
+                vk::BufferViewCreateInfo::default().buffer(raw).format(texel.format()).offset(0).range(vk::WHOLE_SIZE);
+            // SAFETY: the buffer is bound to memory.
+            buffer.view = unsafe { device.raw.create_buffer_view(&info, None) }
+                .map_err(GpuError::call(|| format!("create the view of buffer '{name}'")))?;
+            device.set_name(buffer.view, name);
+        }
         Ok(buffer)
     }
 
@@ -116,8 +151,11 @@ impl Buffer {
 
 impl Drop for Buffer {
     fn drop(&mut self) {
-        // SAFETY: submissions are waited for before their resources can be dropped.
-        unsafe { self.device.raw.destroy_buffer(self.raw, None) };
+        // SAFETY: submissions are waited for before their resources can be dropped; a null view is ignored.
+        unsafe {
+            self.device.raw.destroy_buffer_view(self.view, None);
+            self.device.raw.destroy_buffer(self.raw, None);
+        }
         free(&self.device, self.allocation.take());
     }
 }

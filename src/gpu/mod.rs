@@ -33,7 +33,7 @@ pub use error::GpuError;
 pub use hazards::Use;
 pub use in_flight::InFlight;
 pub use instance::{Instance, Validation};
-pub use memory::{Buffer, BufferKind, StorageImage};
+pub use memory::{Buffer, BufferKind, StorageImage, Texel};
 pub use messages::{Message, Messages};
 pub use physical::{DeviceDescription, DeviceKind, choose};
 pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};

@@ -59,8 +59,12 @@ pub struct DeviceDescription {
     pub max_image_side: u32,
     /// Largest storage buffer that a kernel can see, bytes.
     pub max_storage_bytes: u64,
+    /// Texels of the largest texel buffer.
+    pub max_texels: u64,
     /// Whether kernels can calculate in `f64`.
     pub float64: bool,
+    /// Whether a kernel's invocations come by eights that can hand each other numbers, as on a CPU driver with AVX.
+    pub octets: bool,
     /// All that it lacks; empty when it can be used.
     pub lacks: Vec<String>,
 }
@@ -98,11 +102,14 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
         let of_1_2 = (properties.api_version >= vk::API_VERSION_1_2).then(|| {
             let mut driver = vk::PhysicalDeviceDriverProperties::default();
             let mut floats = vk::PhysicalDeviceFloatControlsProperties::default();
-            let mut properties2 =
-                vk::PhysicalDeviceProperties2::default().push_next(&mut driver).push_next(&mut floats);
+            let mut subgroups = vk::PhysicalDeviceSubgroupProperties::default();
+            let mut properties2 = vk::PhysicalDeviceProperties2::default()
+                .push_next(&mut driver)
+                .push_next(&mut floats)
+                .push_next(&mut subgroups);
             instance.raw.get_physical_device_properties2(raw, &mut properties2);
             let driver = format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
-            (driver, FloatControls::of(&floats))
+            (driver, (FloatControls::of(&floats), subgroups_are_octets(&subgroups)))
         });
         (properties, features, families, of_1_2)
     };
@@ -129,20 +136,25 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
     }
     let queue_family = able.iter().copied().find(has_timestamps).or(able.first().copied());
 
-    let (driver, float_controls) = of_1_2.unzip();
+    let (driver, of_kernels) = of_1_2.unzip();
+    let (float_controls, has_octets) = of_kernels.unzip();
+    let kind = DeviceKind::from_vulkan(properties.device_type);
     let timestamp_valid_bits = queue_family.map_or(0, |family| families[family].timestamp_valid_bits);
     Candidate {
         raw,
         description: DeviceDescription {
             index,
             name: text(properties.device_name_as_c_str()),
-            kind: DeviceKind::from_vulkan(properties.device_type),
+            kind,
             driver: driver.unwrap_or_else(|| format!("version {:#x}", properties.driver_version)).trim().to_owned(),
             api_version: version_text(properties.api_version),
             timestamps: timestamp_valid_bits > 0,
             max_image_side: properties.limits.max_image_dimension2_d,
             max_storage_bytes: properties.limits.max_storage_buffer_range.into(),
+            max_texels: properties.limits.max_texel_buffer_elements.into(),
             float64: features.shader_float64 == vk::TRUE,
+            // Elsewhere a subgroup of eight may be a part of what a GPU does at once, and not all of it there.
+            octets: has_octets.unwrap_or(false) && kind == DeviceKind::Cpu,
             lacks,
         },
         float_controls: float_controls.unwrap_or_default(),
@@ -151,6 +163,12 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
         timestamp_period_ns: properties.limits.timestamp_period,
         cache_identity: ([properties.vendor_id, properties.device_id], properties.pipeline_cache_uuid),
     }
+}
+
+fn subgroups_are_octets(subgroups: &vk::PhysicalDeviceSubgroupProperties) -> bool {
+    subgroups.subgroup_size == 8
+        && subgroups.supported_stages.contains(vk::ShaderStageFlags::COMPUTE)
+        && subgroups.supported_operations.contains(vk::SubgroupFeatureFlags::SHUFFLE)
 }
 
 fn offers_swapchain(instance: &Instance, raw: vk::PhysicalDevice) -> bool {
@@ -218,7 +236,9 @@ mod tests {
             timestamps: true,
             max_image_side: 16384,
             max_storage_bytes: 1 << 27,
+            max_texels: 1 << 27,
             float64: true,
+            octets: false,
             lacks: lacks.iter().map(|&lack| lack.to_owned()).collect(),
         }
     }

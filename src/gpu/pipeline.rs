@@ -9,7 +9,7 @@ use super::device::Device;
 use super::error::GpuError;
 use super::float_controls;
 use super::hazards::{ResourceId, Use};
-use super::memory::{Buffer, BufferKind, StorageImage};
+use super::memory::{Buffer, BufferKind, StorageImage, Texel};
 use super::shaders::Shader;
 
 /// How a kernel uses one binding.
@@ -20,6 +20,8 @@ pub enum BindingKind {
     Storage,
     /// A storage buffer that is only read.
     Records,
+    /// A buffer that is read texel by texel.
+    Texels(Texel),
     /// A storage image that is only written.
     Picture,
 }
@@ -29,13 +31,14 @@ impl BindingKind {
         match self {
             Self::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
             Self::Storage | Self::Records => vk::DescriptorType::STORAGE_BUFFER,
+            Self::Texels(_) => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
             Self::Picture => vk::DescriptorType::STORAGE_IMAGE,
         }
     }
 
     fn use_(self) -> Use {
         match self {
-            Self::Uniform | Self::Records => Use::ShaderRead,
+            Self::Uniform | Self::Records | Self::Texels(_) => Use::ShaderRead,
             Self::Storage | Self::Picture => Use::ShaderWrite,
         }
     }
@@ -203,6 +206,7 @@ impl Resource {
                 BindingKind::Uniform => buffer.kind == BufferKind::Uniform,
                 BindingKind::Storage => buffer.kind == BufferKind::Storage,
                 BindingKind::Records => buffer.kind == BufferKind::Records,
+                BindingKind::Texels(texel) => buffer.kind == BufferKind::Texels(texel),
                 BindingKind::Picture => false,
             },
             Self::Image(_) => binding == BindingKind::Picture,
@@ -288,9 +292,12 @@ impl BindingSet {
                 .descriptor_type(kind.descriptor_type());
             assert!(resource.fits(*kind), "'{}' cannot be bound as {kind:?}", resource.name());
             assert!(Arc::ptr_eq(resource.device(), device), "'{}' is another device's", resource.name());
-            let buffers;
-            let images;
+            let (buffers, views, images);
             let write = match resource {
+                Resource::Buffer(buffer) if buffer.view != vk::BufferView::null() => {
+                    views = [buffer.view];
+                    write.texel_buffer_view(&views)
+                }
                 Resource::Buffer(buffer) => {
                     buffers = [vk::DescriptorBufferInfo { buffer: buffer.raw, offset: 0, range: vk::WHOLE_SIZE }];
                     write.buffer_info(&buffers)

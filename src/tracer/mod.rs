@@ -3,7 +3,9 @@
 mod canvas;
 mod chunks;
 mod course;
+mod hierarchy;
 mod live_kernel;
+mod outlines;
 pub mod probe;
 mod records;
 mod scene_kernel;
@@ -22,7 +24,7 @@ pub use records::{
     BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MaterialRecord, PrimitiveRecords, SphereRecord,
 };
 
-pub use whitted::{Precision, SCENE_BINDINGS, check_precision, scene_constants, upload_scene};
+pub use whitted::{Precision, Requirements, check_precision, scene_bindings, upload_scene};
 pub use whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};

@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::course::upload;
 use super::records::{FrameRecord, PrimitiveRecords};
-use super::whitted::{Precision, SCENE_BINDINGS, scene_constants, upload_scene};
+use super::whitted::{Precision, Requirements, scene_bindings, upload_scene};
 use super::whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError, check_precision};
 use crate::gpu::{
@@ -91,8 +91,9 @@ impl Probe {
             Kernel::Plain | Kernel::Whitted(_) => {
                 let precision = kernel.precision();
                 check_precision(device, precision)?;
+                let requirements = Requirements { kinds: [true; 4], levels: [0; 4], are_boxes_upright: false };
                 let mut bindings = vec![BindingKind::Records];
-                bindings.extend(SCENE_BINDINGS);
+                bindings.extend(scene_bindings(precision));
                 bindings.push(BindingKind::Storage);
                 let description = PipelineDescription {
                     shader: match kernel {
@@ -102,7 +103,7 @@ impl Probe {
                     },
                     bindings: &bindings,
                     push_constant_bytes: size_of::<WhittedFrame>() as u32,
-                    constants: &scene_constants(device, precision, [1; 4])?,
+                    constants: &requirements.constants(device, precision, [64, 1])?,
                 };
                 ComputePipeline::new(device, &description)?
             }
@@ -123,15 +124,21 @@ impl Probe {
 
     fn cast_by_whitted(&self, solids: &[Solid], rays: &[ProbeRay]) -> Result<Vec<Option<ProbeHit>>, TracerError> {
         let precision = self.kernel.precision();
-        let records = WhittedRecords::of(&scene_of(solids), KernelFrame::WORLD, precision, [1, 1]);
+        let farthest_origin = rays.iter().map(|ray| ray.origin.abs().max_element()).fold(0.0, f64::max);
+        let scene = scene_of(solids);
+        let reach = (KernelFrame::reach(&scene, DVec3::ZERO).max(farthest_origin) / 2.0) as f32;
+        let kernel_frame = KernelFrame::world(reach.next_up());
+        let records = WhittedRecords::of(&scene, kernel_frame, precision, [1, 1]);
         assert_eq!(records.counts.iter().sum::<u32>() as usize, solids.len(), "a solid is too small for the kernel");
-        let rows: Vec<[[f64; 4]; ROWS]> = rays.iter().map(ray_rows).collect();
+        let rows: Vec<[[f64; 4]; ROWS]> = rays.iter().map(|ray| ray_rows(ray, records.slots[ray.solid])).collect();
         let frame = WhittedFrame {
             counts: records.counts,
+            first_outlines: records.first_outlines,
             tile_origin: 0,
             image_size: 0,
             depth: 1,
             light_count: 0,
+            reach: kernel_frame.reach,
             writes_remainder: 0,
         };
         let scene = upload_scene(&self.device, &records, precision)?;
@@ -214,7 +221,7 @@ fn floats(bytes: &[u8]) -> Vec<f64> {
     bytemuck::pod_collect_to_vec::<u8, f32>(bytes).into_iter().map(f64::from).collect()
 }
 
-fn ray_rows(ray: &ProbeRay) -> [[f64; 4]; ROWS] {
+fn ray_rows(ray: &ProbeRay, slot: u32) -> [[f64; 4]; ROWS] {
     let (departure, face, side) = match ray.from {
         From::Space => (-1.0, Face::Curved, Side::Outside),
         From::Own(face, side) => (0.0, face, side),
@@ -228,7 +235,7 @@ fn ray_rows(ray: &ProbeRay) -> [[f64; 4]; ROWS] {
     };
     let inside = f64::from(u8::from(side == Side::Inside));
     [
-        ray.origin.extend(ray.solid as f64).to_array(),
+        ray.origin.extend(f64::from(slot)).to_array(),
         ray.direction.extend(departure).to_array(),
         [face.into(), inside, 0.0, 0.0],
     ]

@@ -9,7 +9,7 @@ use super::whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, DeviceKind, FloatWidth, GpuError,
-    PipelineDescription, Recorder, Resource, arithmetic, shaders,
+    PipelineDescription, Recorder, Resource, Texel, arithmetic, shaders,
 };
 use crate::scene::Scene;
 
@@ -57,6 +57,14 @@ impl Precision {
         }
     }
 
+    /// How the kernel reads rows.
+    pub(super) fn texel(self) -> Texel {
+        match self {
+            Self::F32 => Texel::Floats,
+            Self::F64 => Texel::Bits,
+        }
+    }
+
     /// Rows as the kernel reads them.
     pub(super) fn bytes(self, rows: &[[f64; 4]]) -> Vec<u8> {
         match self {
@@ -75,19 +83,64 @@ impl Precision {
 }
 
 /// Bindings 1 to 7 of `glsl/whitted/scene.glsl`.
-pub const SCENE_BINDINGS: [BindingKind; 7] = [BindingKind::Records; 7];
+pub fn scene_bindings(precision: Precision) -> [BindingKind; 7] {
+    let mut bindings = [BindingKind::Texels(precision.texel()); 7];
+    bindings[1] = BindingKind::Texels(Texel::Floats);
+    bindings
+}
 
-/// Specialization constants 0 to 4: how products are made exact, and which kinds of solids there are.
-///
-/// # Errors
-/// The device fails when its arithmetic is tried.
-pub fn scene_constants(device: &Arc<Device>, precision: Precision, counts: [u32; 4]) -> Result<[u32; 5], GpuError> {
-    let width = match precision {
-        Precision::F32 => FloatWidth::F32,
-        Precision::F64 => FloatWidth::F64,
-    };
-    let [spheres, boxes, cylinders, cones] = counts.map(|count| u32::from(count > 0));
-    Ok([u32::from(arithmetic(device, width)?.fused_fma), spheres, boxes, cylinders, cones])
+/// What the kernel is made for, apart from its precision and its workgroup.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Requirements {
+    /// Which kinds there are: spheres, boxes, cylinders, cones.
+    pub kinds: [bool; 4],
+    /// Of boxes over the solids of each kind.
+    pub levels: [u32; 4],
+    pub are_boxes_upright: bool,
+}
+
+impl Requirements {
+    pub fn of(records: &WhittedRecords) -> Self {
+        Self {
+            kinds: records.counts.map(|count| count > 0),
+            levels: records.levels,
+            are_boxes_upright: records.are_boxes_upright,
+        }
+    }
+
+    /// The specialization constants of `glsl/whitted/real.glsl` and `scene.glsl`, and the workgroup of `whitted.comp`.
+    ///
+    /// # Errors
+    /// The device fails when its arithmetic is tried.
+    pub fn constants(
+        &self,
+        device: &Arc<Device>,
+        precision: Precision,
+        [width, height]: [u32; 2],
+    ) -> Result<[u32; 13], GpuError> {
+        let float_width = match precision {
+            Precision::F32 => FloatWidth::F32,
+            Precision::F64 => FloatWidth::F64,
+        };
+        let has_fused_fma = u32::from(arithmetic(device, float_width)?.fused_fma);
+        let [spheres, boxes, cylinders, cones] = self.kinds.map(u32::from);
+        let [sphere_levels, box_levels, cylinder_levels, cone_levels] = self.levels;
+        Ok([
+            has_fused_fma,
+            spheres,
+            boxes,
+            cylinders,
+            cones,
+            width,
+            height,
+            loop_turns(device),
+            u32::from(self.are_boxes_upright),
+            sphere_levels,
+            box_levels,
+            cylinder_levels,
+            cone_levels,
+        ])
+    }
 }
 
 /// Specialization constant 7: the turns of loops that an invocation may take.
@@ -113,21 +166,24 @@ pub fn check_precision(device: &Device, precision: Precision) -> Result<(), Trac
 
 /// Refuses arrays larger than the device lets a kernel see.
 fn check_size(device: &Device, records: &WhittedRecords, precision: Precision) -> Result<(), TracerError> {
-    let limit = device.description().max_storage_bytes;
-    for (name, rows) in records.buffers() {
-        let bytes = rows.len() as u64 * precision.row_bytes();
-        if bytes > limit {
-            return Err(TracerError::Refused(format!(
-                "the scene is too large for device '{}': its {name} take {bytes} B in {}, and a kernel sees {limit} B there",
-                device.description().name,
-                precision.name()
-            )));
-        }
+    let outlines = ("outlines", records.outlines.len() as u64 * Texel::BYTES);
+    let own = records.buffers().map(|(name, rows)| (name, rows.len() as u64 * precision.row_bytes()));
+    let description = device.description();
+    let limit = description.max_texels * Texel::BYTES;
+    let mut arrays = own.into_iter().chain([outlines]);
+    arrays.try_for_each(|(name, bytes)| check_array(name, bytes, &description.name, limit))
+}
+
+fn check_array(name: &str, bytes: u64, device: &str, limit: u64) -> Result<(), TracerError> {
+    if bytes > limit {
+        return Err(TracerError::Refused(format!(
+            "the scene is too large for device '{device}': its {name} take {bytes} B, and a kernel sees {limit} B there"
+        )));
     }
     Ok(())
 }
 
-/// The storage buffers, in the order of their bindings.
+/// The scene's buffers, in the order of their bindings.
 ///
 /// # Errors
 /// An array larger than the device lets a kernel see.
@@ -141,14 +197,19 @@ pub fn upload_scene(
 }
 
 fn upload(device: &Arc<Device>, records: &WhittedRecords, precision: Precision) -> Result<Vec<Resource>, GpuError> {
-    let upload = |(name, rows): (&str, &[[f64; 4]])| {
-        let bytes = precision.bytes(rows);
+    let upload = |name: &str, texel: Texel, bytes: &[u8]| {
         // An array of none still has to be bound: as one record of zeros, which no count reaches.
-        let mut buffer = Buffer::new(device, name, BufferKind::Records, (bytes.len() as u64).max(EMPTY_ARRAY_BYTES))?;
-        buffer.write(&bytes)?;
+        let size = (bytes.len() as u64).max(EMPTY_ARRAY_BYTES);
+        let mut buffer = Buffer::new(device, name, BufferKind::Texels(texel), size)?;
+        buffer.write(bytes)?;
         Ok(Resource::from(&Arc::new(buffer)))
     };
-    records.buffers().into_iter().map(upload).collect()
+    let mut resources = Vec::new();
+    for (name, rows) in records.buffers() {
+        resources.push(upload(name, precision.texel(), &precision.bytes(rows))?);
+    }
+    resources.insert(1, upload("outlines", Texel::Floats, bytemuck::cast_slice(&records.outlines))?);
+    Ok(resources)
 }
 
 /// The largest record: seven rows of four doubles.
@@ -179,14 +240,17 @@ impl WhittedScene {
     ) -> Result<Self, TracerError> {
         let precision = kernel.precision();
         check_precision(device, precision)?;
-        let records = WhittedRecords::of(scene, KernelFrame::of(scene), precision, [width, height]);
+        let kernel_frame = KernelFrame::of(scene);
+        let records = WhittedRecords::of(scene, kernel_frame, precision, [width, height]);
         check_size(device, &records, precision)?;
         let frame = WhittedFrame {
             counts: records.counts,
+            first_outlines: records.first_outlines,
             tile_origin: 0,
             image_size: width | height << 16,
             depth: max_depth,
             light_count: records.light_count,
+            reach: kernel_frame.reach,
             writes_remainder: 0,
         };
         Ok(Self { kernel, records, frame, background: scene.background.as_vec3().to_array() })
@@ -199,44 +263,45 @@ impl WhittedScene {
     /// Of all arrays.
     pub fn bytes(&self) -> u64 {
         let rows: usize = self.records.buffers().iter().map(|(_, rows)| rows.len()).sum();
-        rows as u64 * self.kernel.precision().row_bytes()
-    }
-
-    /// Which kinds of solids there are.
-    fn kinds(&self) -> [bool; 4] {
-        self.records.counts.map(|count| count > 0)
+        rows as u64 * self.kernel.precision().row_bytes() + self.records.outlines.len() as u64 * Texel::BYTES
     }
 }
 
-/// The kernel, specialised for scenes with the same kinds of solids.
+/// The kernel, specialised for what a scene requires.
 pub(super) struct WhittedPipeline {
     pipeline: Arc<ComputePipeline>,
-    kinds: [bool; 4],
+    requirements: Requirements,
     workgroup: [u32; 2],
 }
 
 impl WhittedPipeline {
     pub fn new(device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
-        let [fma, spheres, boxes, cylinders, cones] =
-            scene_constants(device, scene.kernel.precision(), scene.records.counts)?;
+        let precision = scene.kernel.precision();
+        let requirements = Requirements::of(&scene.records);
         let mut bindings = vec![BindingKind::Picture];
-        bindings.extend(SCENE_BINDINGS);
+        bindings.extend(scene_bindings(precision));
+        // Invocations come by eights along x.
+        let octets = device.description().octets && workgroup[0].is_multiple_of(8);
+        let shader = match (scene.kernel, octets) {
+            (Kernel::Whitted(Precision::F64), false) => &shaders::WHITTED_F64,
+            (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_OCTETS,
+            (Kernel::Whitted(Precision::F32), false) => &shaders::WHITTED_F32,
+            (Kernel::Whitted(Precision::F32), true) => &shaders::WHITTED_F32_OCTETS,
+            (Kernel::Plain | Kernel::Course, false) => &shaders::WHITTED_PLAIN,
+            (Kernel::Plain | Kernel::Course, true) => &shaders::WHITTED_PLAIN_OCTETS,
+        };
         let description = PipelineDescription {
-            shader: match scene.kernel {
-                Kernel::Whitted(Precision::F64) => &shaders::WHITTED_F64,
-                Kernel::Whitted(Precision::F32) => &shaders::WHITTED_F32,
-                Kernel::Plain | Kernel::Course => &shaders::WHITTED_PLAIN,
-            },
+            shader,
             bindings: &bindings,
             push_constant_bytes: size_of::<WhittedFrame>() as u32,
-            constants: &[fma, spheres, boxes, cylinders, cones, workgroup[0], workgroup[1], loop_turns(device)],
+            constants: &requirements.constants(device, precision, workgroup)?,
         };
-        Ok(Self { pipeline: ComputePipeline::new(device, &description)?, kinds: scene.kinds(), workgroup })
+        Ok(Self { pipeline: ComputePipeline::new(device, &description)?, requirements, workgroup })
     }
 
     /// Whether it draws that scene too.
     pub fn fits(&self, scene: &WhittedScene) -> bool {
-        self.kinds == scene.kinds()
+        self.requirements == Requirements::of(&scene.records)
     }
 
     /// The kernel reading a scene's arrays and writing into `picture`.
@@ -254,5 +319,22 @@ impl WhittedPipeline {
     /// The workgroups that cover so many pixels.
     pub fn groups(&self, [width, height]: [u32; 2]) -> [u32; 2] {
         [width.div_ceil(self.workgroup[0]), height.div_ceil(self.workgroup[1])]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn arrays_larger_than_a_device_shows_a_kernel_are_refused_in_one_line() {
+        assert!(check_array("spheres", 4096, "small", 4096).is_ok());
+        let error = check_array("spheres", 4112, "small", 4096).unwrap_err();
+        assert!(error.is_input_error());
+        let line = error.to_string();
+        assert!(!line.contains('\n'), "{line}");
+        for part in ["too large", "'small'", "spheres", "4112 B", "4096 B"] {
+            assert!(line.contains(part), "{part} is missing in: {line}");
+        }
     }
 }

@@ -6,7 +6,10 @@
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
+use rayon::prelude::*;
 
+use super::hierarchy::{self, GROUP};
+use super::outlines::{bounds, is_turned, level_rows, nothing, outline};
 use super::whitted::Precision;
 use crate::scene::{Camera, Light, Primitive, Projection, Scene, Solid, SolidKind, world_from_box};
 
@@ -16,6 +19,8 @@ pub struct KernelFrame {
     /// World frame.
     pub origin: DVec3,
     pub scale: f64,
+    /// Half of the largest coordinate of a solid or of a ray's origin, kernel lengths.
+    pub reach: f32,
 }
 
 /// Lights farther than this many times the largest primitive are moved here along their direction: parallel light to
@@ -23,35 +28,42 @@ pub struct KernelFrame {
 const FARTHEST_LIGHT: f64 = (1_u64 << 60) as f64;
 
 impl KernelFrame {
-    /// The world frame itself.
-    pub const WORLD: Self = Self { origin: DVec3::ZERO, scale: 1.0 };
+    /// The world frame itself, where no coordinate is larger than twice `reach`.
+    pub fn world(reach: f32) -> Self {
+        Self { origin: DVec3::ZERO, scale: 1.0, reach }
+    }
 
     /// With the camera at the origin, which its rays leave without rounding, and the farthest reach of a primitive
     /// from there brought below 2 by a power of two: squares stay far from the ends of `f32` whatever the scene's unit.
     pub fn of(scene: &Scene) -> Self {
         let origin = scene.camera.position;
-        let reach = |primitive: &Primitive| {
-            let bound = Bound::of(&primitive.solid);
-            (bound.center - origin).abs().max_element() + bound.radius
-        };
-        let farthest = scene.primitives.iter().map(reach).fold(0.0, f64::max);
+        let farthest = Self::reach(scene, origin);
         // From −1022 to 1022 the scale and its reciprocal are normal numbers.
         let exponent = if farthest > 0.0 { farthest.log2().floor().clamp(-1022.0, 1022.0) } else { 0.0 };
-        Self { origin, scale: (-exponent).exp2() }
+        Self { origin, scale: (-exponent).exp2(), reach: 1.0 }
     }
 
-    fn point(&self, world: DVec3) -> DVec3 {
+    /// The largest coordinate of a solid, seen from a place; world lengths.
+    pub(super) fn reach(scene: &Scene, origin: DVec3) -> f64 {
+        let reach = |primitive: &Primitive| {
+            let reach = Reach::of(&primitive.solid);
+            (reach.center - origin).abs().max_element() + reach.radius
+        };
+        scene.primitives.par_iter().map(reach).reduce(|| 0.0, f64::max)
+    }
+
+    pub(super) fn point(&self, world: DVec3) -> DVec3 {
         (world - self.origin) * self.scale
     }
 }
 
 /// A sphere around a solid, world frame.
-struct Bound {
+struct Reach {
     center: DVec3,
     radius: f64,
 }
 
-impl Bound {
+impl Reach {
     fn of(solid: &Solid) -> Self {
         match *solid {
             Solid::Sphere { center, radius } => Self { center, radius },
@@ -75,88 +87,108 @@ fn half_length(a: DVec3, b: DVec3) -> f64 {
     (b * 0.5 - a * 0.5).length()
 }
 
-/// What the kernel's storage buffers hold, each as rows of four reals.
+/// What the kernel's buffers hold.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct WhittedRecords {
     /// `View`, then the lights.
     pub view_and_lights: Vec<[f64; 4]>,
-    pub bounds: Vec<[f64; 4]>,
-    pub spheres: Vec<[f64; 4]>,
-    pub boxes: Vec<[f64; 4]>,
-    pub cylinders: Vec<[f64; 4]>,
-    pub cones: Vec<[f64; 4]>,
+    /// The outlines of each kind's solids and the boxes over them, for the search in `f32`.
+    pub outlines: Vec<[f32; 4]>,
+    /// Spheres, boxes, cylinders, cones, as all that follows by kind.
+    pub solids: [Vec<[f64; 4]>; 4],
+    /// By slot.
     pub materials: Vec<[f64; 4]>,
-    /// Spheres, boxes, cylinders, cones.
+    /// The slot of each primitive of the scene, or [`NO_SLOT`].
+    pub slots: Vec<u32>,
     pub counts: [u32; 4],
+    /// Where each kind's outlines begin, rows.
+    pub first_outlines: [u32; 4],
+    /// Of boxes over the solids.
+    pub levels: [u32; 4],
+    /// No box is turned.
+    pub are_boxes_upright: bool,
     pub light_count: u32,
 }
 
-/// Rows of a record of each kind, in the order of [`SolidKind::ALL`].
-const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
+/// Of a primitive that is too small for the kernel.
+pub const NO_SLOT: u32 = u32::MAX;
 
 impl WhittedRecords {
     /// For a picture of `width`×`height` pixels; `precision` is that of the kernel.
     pub fn of(scene: &Scene, frame: KernelFrame, precision: Precision, [width, height]: [u32; 2]) -> Self {
-        let mut records = Self::default();
+        let slots = vec![NO_SLOT; scene.primitives.len()];
+        let mut records = Self { are_boxes_upright: true, slots, ..Self::default() };
         records.view_and_lights.extend(view(scene, width, height));
         records.view_and_lights.extend(scene.lights.iter().flat_map(|light| light_rows(light, frame)));
         records.light_count = scene.lights.len() as u32;
         for kind in SolidKind::ALL {
-            let of_kind = (0_u32..).zip(&scene.primitives).filter(|(_, primitive)| primitive.solid.kind() == kind);
-            for (index, primitive) in of_kind {
-                records.add(index, primitive, frame, precision);
-            }
+            records.add(kind, scene, frame, precision);
         }
         records
     }
 
-    fn add(&mut self, index: u32, primitive: &Primitive, frame: KernelFrame, precision: Precision) {
-        let bound = Bound::of(&primitive.solid);
-        // Below that, squares leave the kernel's range; against the scene it is nothing that a pixel could show.
-        if bound.radius * frame.scale < precision.smallest_length() {
-            return;
+    fn add(&mut self, kind: SolidKind, scene: &Scene, frame: KernelFrame, precision: Precision) {
+        let is_counted = |(_, primitive): &(u32, &Primitive)| {
+            // Below that, squares leave the kernel's range; against the scene it is nothing that a pixel could show.
+            let reach = Reach::of(&primitive.solid).radius * frame.scale;
+            primitive.solid.kind() == kind && reach >= precision.smallest_length()
+        };
+        let primitives: Vec<_> = (0_u32..).zip(&scene.primitives).filter(is_counted).collect();
+        let bounds: Vec<_> = primitives.par_iter().map(|(_, primitive)| bounds(&primitive.solid, frame)).collect();
+        let levels = hierarchy::level_count(bounds.len());
+        let order: Vec<u32> = if levels == 0 { (0..bounds.len() as u32).collect() } else { hierarchy::order(&bounds) };
+        let bounds: Vec<_> = order.par_iter().map(|&place| bounds[place as usize]).collect();
+        let ordered = || order.par_iter().map(|&place| primitives[place as usize]);
+
+        let first_slot = (self.materials.len() / MATERIAL_ROWS) as u32;
+        for (slot, (primitive, _)) in (first_slot..).zip(order.iter().map(|&place| primitives[place as usize])) {
+            self.slots[primitive as usize] = slot;
         }
-        // The kernel's reject allows for its own rounding; here are rounded the sum, the square root and the centre.
-        let center = frame.point(bound.center);
-        let spare = 4.0 * precision.unit_roundoff() * (bound.radius * frame.scale + center.abs().max_element());
-        self.bounds.push([center.x, center.y, center.z, bound.radius * frame.scale + spare]);
-        let kind = primitive.solid.kind();
-        let rows = solid_rows(&primitive.solid, frame, precision);
-        match kind {
-            SolidKind::Sphere => self.spheres.extend(rows),
-            SolidKind::Box => self.boxes.extend(rows),
-            SolidKind::Cylinder => self.cylinders.extend(rows),
-            SolidKind::Cone => self.cones.extend(rows),
+        self.counts[kind as usize] = order.len() as u32;
+        self.levels[kind as usize] = levels as u32;
+        self.first_outlines[kind as usize] = self.outlines.len() as u32;
+        self.outlines.par_extend(
+            ordered()
+                .zip(&bounds)
+                .flat_map_iter(|((_, primitive), bounds)| outline(&primitive.solid, *bounds, frame, precision)),
+        );
+        let missing = order.len().next_multiple_of(GROUP) - order.len();
+        self.outlines.extend(std::iter::repeat_n(nothing(kind), missing).flatten());
+        for level in hierarchy::levels(&bounds) {
+            self.outlines.extend(level_rows(&level, frame));
         }
-        self.counts[kind as usize] += 1;
-        let material = &primitive.material;
-        self.materials.extend([
-            row(material.color, material.ambient),
-            [material.diffuse, material.specular, f64::from(index), 0.0],
-        ]);
+        self.are_boxes_upright &= !ordered().any(|(_, primitive)| is_turned(&primitive.solid));
+        let solids = &mut self.solids[kind as usize];
+        solids.par_extend(ordered().flat_map_iter(|(_, primitive)| solid_rows(&primitive.solid, frame, precision)));
+        self.materials.par_extend(ordered().flat_map_iter(|(index, Primitive { material, .. })| {
+            let second = [material.diffuse, material.specular, f64::from(index), 0.0];
+            [row(material.color, material.ambient), second]
+        }));
+        // Slots of nothing make the group whole.
+        self.solids[kind as usize].extend(vec![[0.0; 4]; missing * SOLID_ROWS[kind as usize]]);
+        self.materials.extend(vec![[0.0; 4]; missing * MATERIAL_ROWS]);
     }
 
-    /// The buffers in the order of their bindings, with their names.
-    pub fn buffers(&self) -> [(&'static str, &[[f64; 4]]); 7] {
+    /// The buffers of the kernel's own numbers, in the order of their bindings, with their names; the outlines come
+    /// after the first.
+    pub fn buffers(&self) -> [(&'static str, &[[f64; 4]]); 6] {
+        let [spheres, boxes, cylinders, cones] = &self.solids;
         [
             ("view and lights", &self.view_and_lights),
-            ("bounds", &self.bounds),
-            ("spheres", &self.spheres),
-            ("boxes", &self.boxes),
-            ("cylinders", &self.cylinders),
-            ("cones", &self.cones),
+            ("spheres", spheres),
+            ("boxes", boxes),
+            ("cylinders", cylinders),
+            ("cones", cones),
             ("materials", &self.materials),
         ]
     }
-
-    /// Solids of each kind, by the length of their arrays.
-    pub fn solid_counts(&self) -> [usize; 4] {
-        let rows = [self.spheres.len(), self.boxes.len(), self.cylinders.len(), self.cones.len()];
-        std::array::from_fn(|kind| rows[kind] / SOLID_ROWS[kind])
-    }
 }
 
-fn row(vector: DVec3, fourth: f64) -> [f64; 4] {
+/// Rows of a record of each kind, in the order of [`SolidKind::ALL`], and of a material.
+const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
+const MATERIAL_ROWS: usize = 2;
+
+pub(super) fn row(vector: DVec3, fourth: f64) -> [f64; 4] {
     [vector.x, vector.y, vector.z, fourth]
 }
 
@@ -216,7 +248,7 @@ fn two_sum(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
 }
 
 /// The unit vector along value + error, and what its rounding lost.
-fn unit((value, error): (DVec3, DVec3)) -> (DVec3, DVec3) {
+pub(super) fn unit((value, error): (DVec3, DVec3)) -> (DVec3, DVec3) {
     // Scaled by a power of two, so that no square leaves the range of `f64`.
     let scale = (-value.abs().max_element().log2().floor().clamp(-1022.0, 1022.0)).exp2();
     let (value, error) = (value * scale, error * scale);
@@ -267,6 +299,8 @@ fn view(scene: &Scene, width: u32, height: u32) -> [[f64; 4]; 4] {
 pub struct WhittedFrame {
     /// Spheres, boxes, cylinders, cones.
     pub counts: [u32; 4],
+    /// Where their outlines begin, rows.
+    pub first_outlines: [u32; 4],
     /// Pixels, x | y << 16.
     pub tile_origin: u32,
     /// Pixels, width | height << 16.
@@ -274,6 +308,8 @@ pub struct WhittedFrame {
     /// Generations to trace.
     pub depth: u32,
     pub light_count: u32,
+    /// Half of the largest coordinate of a solid or of a ray's origin, kernel lengths.
+    pub reach: f32,
     /// Not 0: the picture is what each colour loses by rounding to `f32`.
     pub writes_remainder: u32,
 }

@@ -17,16 +17,49 @@ const FARTHEST: f64 = 1e7;
 pub struct Case {
     pub solid: Solid,
     pub size: f64,
+    /// Largest distance of a ray's origin, in sizes.
+    farthest: f64,
     reference: Solids,
 }
 
 impl Case {
     /// Any pose and proportion, every number as the precision stores it.
     pub fn random(random: &mut Random, kind: SolidKind, precision: Precision) -> Self {
+        Self { farthest: FARTHEST, ..Self::changed(random, kind, precision, |_, solid| solid) }
+    }
+
+    /// As a picture's scene lies in the kernel's frame: no coordinate of a solid or a ray's origin is larger than 2.
+    pub fn in_kernel_frame(random: &mut Random, kind: SolidKind, precision: Precision) -> Self {
+        let case = Self::changed(random, kind, precision, |random, solid| {
+            let scale = random.magnitude(-5.0, -0.5) / size(&solid);
+            let from = middle(&solid);
+            let target = random.unit_vector() * random.uniform(0.0, 0.6);
+            let place = |point: DVec3| (point - from) * scale + target;
+            match solid {
+                Solid::Sphere { center, radius } => Solid::Sphere { center: place(center), radius: radius * scale },
+                Solid::Box { center, half_size, rotation_degrees } => {
+                    Solid::Box { center: place(center), half_size: half_size * scale, rotation_degrees }
+                }
+                Solid::Cylinder { ends, radius } => Solid::Cylinder { ends: ends.map(place), radius: radius * scale },
+                Solid::Cone { apex, axis, height, half_angle_degrees } => {
+                    Solid::Cone { apex: place(apex), axis, height: height * scale, half_angle_degrees }
+                }
+            }
+        });
+        Self { farthest: 1.0 / case.size, ..case }
+    }
+
+    fn changed(
+        random: &mut Random,
+        kind: SolidKind,
+        precision: Precision,
+        change: impl Fn(&mut Random, Solid) -> Solid,
+    ) -> Self {
         let number = |value| stored(precision, value);
         let vector = |value| stored_vector(precision, value);
         let solid = loop {
-            let solid = match random.solid(kind) {
+            let changed = random.solid(kind);
+            let solid = match change(random, changed) {
                 Solid::Sphere { center, radius } => Solid::Sphere { center: vector(center), radius: number(radius) },
                 Solid::Box { center, half_size, rotation_degrees } => {
                     Solid::Box { center: vector(center), half_size: vector(half_size), rotation_degrees }
@@ -40,7 +73,8 @@ impl Case {
                 break solid;
             }
         };
-        Self { size: size(&solid), reference: Solids::new(&[primitive(solid.clone())]), solid }
+        let reference = Solids::new(&[primitive(solid.clone())]);
+        Self { size: size(&solid), farthest: FARTHEST, reference, solid }
     }
 
     /// By the reference.
@@ -56,10 +90,10 @@ impl Case {
             let distance = match random.uniform(0.0, 6.0) {
                 inside if inside < 1.0 => inside * random.magnitude(-3.0, 0.0),
                 near if near < 3.0 => random.magnitude(-2.0, 3.0),
-                _ => random.magnitude(0.0, FARTHEST.log10()),
+                _ => random.magnitude(0.0, self.farthest.log10()),
             };
             let origin = stored_vector(precision, middle + random.unit_vector() * self.size * distance);
-            if (origin - middle).length() <= FARTHEST * self.size {
+            if (origin - middle).length() <= self.farthest * self.size {
                 break origin;
             }
         };

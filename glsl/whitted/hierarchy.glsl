@@ -1,0 +1,101 @@
+// The search through the solids of a kind, included once for each: SEARCH is its name, KEY_OF and SETTLE what looks at an
+// outline of OUTLINE_ROWS rows, KIND the kind and LEVELS the number of levels over the solids.
+//
+// The solids lie in such an order that each eight that begin with a multiple of eight are near each other, and so are
+// each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what is
+// in it. src/tracer/hierarchy.rs makes the order, and the boxes.
+
+// `group` of the kind, `first_group` before it. A loop's body may have come here for nothing: then it does not count.
+void TRY_EIGHT(uint outlines_begin, uint group, uint first_group, bool counts, Beam beam, inout Found found) {
+    uint first = outlines_begin + OUTLINE_ROWS * 8u * group;
+    vec4 own_a = OWN_ROW(outlines, first, OUTLINE_ROWS);
+    vec4 own_b = OUTLINE_ROWS == 1u ? vec4(0.0) : OWN_ROW(outlines, first + 1u, OUTLINE_ROWS);
+    Group eight = group_of(first_group + group, counts, beam);
+#define TRY_ONE(k)                                                                                                   \
+    {                                                                                                                \
+        vec4 a = ROW_OF_EIGHT(own_a, outlines, first, OUTLINE_ROWS, k);                                              \
+        vec4 b = OUTLINE_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own_b, outlines, first + 1u, OUTLINE_ROWS, k);        \
+        take(KEY_OF(a, b, beam, k), k, eight);                                                                       \
+    }
+    EIGHT_TIMES(TRY_ONE)
+#undef TRY_ONE
+    uint place = (eight.key + eight.first_key) & 7u;
+    vec4 a = ROW_OF_EIGHT(own_a, outlines, first, OUTLINE_ROWS, place);
+    vec4 b = OUTLINE_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own_b, outlines, first + 1u, OUTLINE_ROWS, place);
+    SETTLE(a, b, eight.key < eight.end, beam, found);
+    take(eight, found);
+}
+
+// A ray, or a packet of eight, goes down group by group: `left` keeps, from bit 8 * (h - 2) on, which boxes of level h,
+// in their order, are still to be gone into. Those of level 1 are gone into at once. What a level holds backwards has
+// its bit in `backwards`.
+void SEARCH(Beam beam, bool is_searching, inout Found found) {
+    uint count = frame.counts[KIND], first_group = first_slots()[KIND] / 8u, items = frame.outlines[KIND];
+    if (!is_searching) found.limit = HIDDEN;
+    if (LEVELS == 0u) {
+        uint group = 0u;
+        for (;;) {
+            turns++;
+            TRY_EIGHT(items, group, first_group, true, beam, found);
+            group++;
+            if (8u * group >= count) break;
+        }
+    } else {
+        // Where the boxes of each level begin.
+        uint rows[7];
+        uint boxes = eighths(count);
+        rows[1] = items + OUTLINE_ROWS * padded(count);
+        [[unroll]] for (uint h = 2u; h <= 6u; h++) {
+            rows[h] = rows[h - 1u] + 2u * padded(boxes);
+            boxes = h <= LEVELS ? eighths(boxes) : boxes;
+        }
+
+        vec3 heading = of_packet(is_searching ? beam.direction : vec3(0.0));
+        uint root = (1u << eighths(boxes)) - 1u;
+        const uint root_bit = 8u * (LEVELS - 1u);
+        uvec2 left = root_bit < 32u ? uvec2(root << root_bit, 0u) : uvec2(0u, root << (root_bit - 32u));
+        uint backwards = 0u;
+        uint path = 0u; // the group of level 1 that was gone into last, or the first below the one of a higher level
+
+        for (;;) {
+            uint leaves;
+            bool are_leaves_backwards;
+            for (;;) {
+                turns++;
+                uint bit = left.x != 0u ? uint(findLSB(left.x)) : 32u + uint(findLSB(left.y));
+                left = left.x != 0u ? uvec2(left.x & (left.x - 1u), left.y) : uvec2(0u, left.y & (left.y - 1u));
+                uint level = bit / 8u + 1u; // of the boxes to look at now
+                uint place = (backwards >> level & 1u) != 0u ? 7u - bit % 8u : bit % 8u;
+                uint group = (path >> 3u * level) * 8u + place;
+                path = group << 3u * (level - 1u);
+
+                uint first = rows[1];
+                [[unroll]] for (uint h = 2u; h <= 6u; h++) first = h <= LEVELS && level == h ? rows[h] : first;
+                uint order;
+                uint met = boxes_met(first + 16u * group, beam, found.limit, order);
+                are_leaves_backwards = heading[order] < 0.0;
+                met = are_leaves_backwards ? bitfieldReverse(met) >> 24 : met;
+                uint backwards_bit = 1u << (level - 1u);
+                backwards = are_leaves_backwards ? backwards | backwards_bit : backwards & ~backwards_bit;
+                // Of level 1, `shift` has no meaning.
+                uint shift = 8u * (level - 2u);
+                leaves = level == 1u ? met : 0u;
+                left.x |= level > 1u && shift < 32u ? met << shift : 0u;
+                if (LEVELS > 5u) left.y |= level > 1u && shift >= 32u ? met << (shift - 32u) : 0u;
+                if (leaves != 0u || (left.x | left.y) == 0u) break;
+            }
+
+            for (;;) {
+                turns++;
+                bool is_leaf = leaves != 0u;
+                uint place = is_leaf ? uint(findLSB(leaves)) : 0u;
+                leaves &= leaves - 1u;
+                uint group = 8u * path + (are_leaves_backwards ? 7u - place : place);
+                TRY_EIGHT(items, group, first_group, is_leaf, beam, found);
+                if (leaves == 0u) break;
+            }
+            bool ends = (left.x | left.y) == 0u || turns >= LOOP_TURNS;
+            if (ends || !any_of_packet(found.limit > HIDDEN)) break;
+        }
+    }
+}

@@ -1,0 +1,137 @@
+// The outlines of solids: where a ray may meet one at the earliest, and whether it does for sure. In float, on the safe
+// side; src/tracer/outlines.rs writes them. An outline of nothing is never met.
+
+// The half chord, squared, is off by this much of the squared distance: 2u for the difference, 3u for each dot product and
+// 4u for the direction's length, each at most once, and as much again for the sum.
+const float CHORD_ERROR = 32.0 * FLOAT_ROUNDOFF;
+#if REAL_BITS == 64
+// And by the rounding of centre and ray to float, at distances of up to 4 * frame.reach. An outline has it in its square.
+float chord_rounding() { return 64.0 * FLOAT_ROUNDOFF * frame.reach * frame.reach; }
+#else
+float chord_rounding() { return 0.0; }
+#endif
+
+// a: centre, the radius squared, rounded up.
+uint key_of_sphere(vec4 a, vec4 b, Beam beam, uint k) {
+    vec3 to_center = a.xyz - beam.origin;
+    float ahead = dot(to_center, beam.direction);
+    float chord_squared = (a.w - (1.0 - CHORD_ERROR) * dot(to_center, to_center)) + ahead * ahead;
+    // Not a number where the chord is none.
+    float chord = sqrt(chord_squared);
+    float leaves = ahead + (chord + 2.0 * place_error());
+    int never = (floatBitsToInt(chord_squared) | floatBitsToInt(leaves)) >> 31;
+    return key_of(ahead - (chord + 2.0 * place_error()), never, k);
+}
+
+void settle_sphere(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
+    vec3 to_center = a.xyz - beam.origin;
+    float ahead = dot(to_center, beam.direction);
+    float distance_squared = dot(to_center, to_center);
+    float chord_squared = (a.w - (1.0 - CHORD_ERROR) * distance_squared) + ahead * ahead;
+    float chord = sqrt(max(chord_squared, 0.0));
+    // The true half chord, squared, is less by two errors at most, and so no less than 0.77^2 of this one.
+    bool is_deep = chord_squared >= 5.0 * (CHORD_ERROR * distance_squared + chord_rounding());
+    // The sine of the ray to the surface is half chord by radius; the origin is outside by t times that, or more.
+    float sine = 0.77 * chord * inversesqrt(a.w);
+    bool is_ahead = (ahead - chord) * sine > HIDING_ERROR * (4.0 * frame.reach);
+    settle(is_there && is_deep && is_ahead, ahead - 0.77 * chord + 2.0 * place_error(), sine, beam, found);
+}
+
+// a: centre; b: half sizes and, where the box is no more than its outline, 1. Both rounded outwards by 2 place errors.
+uint key_of_box(vec4 a, vec4 b, Beam beam, uint k) {
+    vec3 middle = (a.xyz - beam.origin) * beam.inverse;
+    vec3 reach = b.xyz * abs(beam.inverse);
+    ivec3 enters = floatBitsToInt(middle - reach), leaves = floatBitsToInt(middle + reach);
+    int near = max(max(enters.x, enters.y), max(enters.z, 0));
+    int far = min(min(leaves.x, leaves.y), leaves.z);
+    return far < near ? 0xFFFFFFFFu : uint(near) & ~7u | k;
+}
+
+void settle_box(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
+    vec3 middle = (a.xyz - beam.origin) * beam.inverse;
+    vec3 reach = b.xyz * abs(beam.inverse);
+    vec3 enters = middle - reach, leaves = middle + reach;
+    float near = max(enters.x, max(enters.y, enters.z)), far = min(leaves.x, min(leaves.y, leaves.z));
+    bool is_deep = b.w == 1.0 && near > beam.plane_error && far - near > 2.0 * beam.plane_error;
+    // The smallest of three, of which one is right.
+    vec3 slope = abs(beam.direction);
+    float sine = min(slope.x, min(slope.y, slope.z));
+    settle(is_there && is_deep, near + beam.plane_error, sine, beam, found);
+}
+
+// a: middle between the ends, radius; b: unit axis, half length.
+uint key_of_cylinder(vec4 a, vec4 b, Beam beam, uint k) {
+    vec3 from_middle = beam.origin - a.xyz;
+    float closest_t = -dot(from_middle, beam.direction);
+    vec3 closest = from_middle + closest_t * beam.direction;
+    float along = dot(b.xyz, closest), along_slope = dot(b.xyz, beam.direction);
+    vec3 across = closest - along * b.xyz, slope = beam.direction - along_slope * b.xyz;
+    float slope_squared = dot(slope, slope), across_squared = dot(across, across);
+    float radius = a.w + 4.0 * place_error();
+    float product = dot(across, slope);
+    float chord_squared = product * product - slope_squared * (across_squared - radius * radius);
+    float error = 2.0 * CHORD_ERROR * slope_squared * (across_squared + radius * radius) + chord_rounding();
+    float chord = sqrt(max(chord_squared + error, 0.0));
+    // Nearly along the axis the side says little, and nearly across it the ends.
+    bool has_side = slope_squared > 1e-3, has_ends = abs(along_slope) > 1e-3;
+    float by_slope = 1.0 / slope_squared, by_along = 1.0 / along_slope;
+    float side_error = (64.0 * place_error()) * by_slope, end_error = (64.0 * place_error()) * abs(by_along);
+    float side_middle = -product * by_slope, side_reach = chord * by_slope + side_error;
+    float end_middle = -along * by_along, end_reach = (b.w + 4.0 * place_error()) * abs(by_along) + end_error;
+    float side_near = has_side ? side_middle - side_reach : -FAR, side_far = has_side ? side_middle + side_reach : FAR;
+    float end_near = has_ends ? end_middle - end_reach : -FAR, end_far = has_ends ? end_middle + end_reach : FAR;
+    float near = max(side_near, end_near), far = min(side_far, end_far);
+    int never = if_negative(b.w) | if_negative(far - near) | if_negative(far + (closest_t + place_error()));
+    never |= has_side ? if_negative(chord_squared + error) : 0;
+    return key_of(near + (closest_t - 4.0 * place_error()), never, k);
+}
+
+void settle_cylinder(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {}
+
+// Below this sine of the half-angle a cone is taken for all between the planes of its apex and its base.
+const float LEAST_SINE = 0.015625;
+
+// a: apex, height; b: unit axis, tangent of half the half-angle.
+uint key_of_cone(vec4 a, vec4 b, Beam beam, uint k) {
+    vec3 from_apex = beam.origin - a.xyz;
+    float closest_t = -dot(from_apex, beam.direction);
+    vec3 closest = from_apex + closest_t * beam.direction;
+    float along = dot(b.xyz, closest), along_slope = dot(b.xyz, beam.direction);
+    vec3 across = closest - along * b.xyz, slope = beam.direction - along_slope * b.xyz;
+    float by_secant = 1.0 / (1.0 + b.w * b.w);
+    float sine = 2.0 * b.w * by_secant, cosine = (1.0 - b.w) * (1.0 + b.w) * by_secant;
+    float sine_squared = sine * sine, cosine_squared = cosine * cosine;
+    // With the apex drawn back, so that the side is farther out by 4 place errors.
+    float depth = along + 4.0 * place_error() / max(sine, LEAST_SINE);
+
+    // a * s^2 + 2 * b * s + c <= 0 in the double cone, as in cone.glsl.
+    float slope_out = cosine_squared * dot(slope, slope), slope_down = sine_squared * along_slope * along_slope;
+    float out_squared = cosine_squared * dot(across, across), down_squared = sine_squared * depth * depth;
+    float square = slope_out - slope_down;
+    float product = cosine_squared * dot(across, slope) - sine_squared * depth * along_slope;
+    float discriminant = product * product - square * (out_squared - down_squared);
+    float error = 4.0 * CHORD_ERROR * (slope_out + slope_down) * (out_squared + down_squared) + chord_rounding();
+    // Nearly along the side, and nearly across the axis, the side and the base say little.
+    bool has_side = abs(square) > 0.01 && sine > LEAST_SINE, has_ends = abs(along_slope) > 1e-3;
+    bool crosses = square > 0.0;
+    float by_square = 1.0 / square, by_along = 1.0 / along_slope;
+    float side_error = (64.0 * place_error()) * abs(by_square), end_error = (64.0 * place_error()) * abs(by_along);
+    float side_middle = -product * by_square;
+    // Between the roots, or beyond one of them: on the safe side either way.
+    float side_reach = sqrt(max(crosses ? discriminant + error : discriminant - error, 0.0)) * abs(by_square);
+    bool is_down = along_slope > 0.0;
+    float side_near = crosses ? side_middle - side_reach : (is_down ? side_middle + side_reach : -FAR);
+    float side_far = crosses ? side_middle + side_reach : (is_down ? FAR : side_middle - side_reach);
+    side_near = has_side ? side_near - side_error : -FAR;
+    side_far = has_side ? side_far + side_error : FAR;
+    float half_height = 0.5 * a.w;
+    float end_middle = (half_height - along) * by_along;
+    float end_reach = (half_height + 4.0 * place_error()) * abs(by_along) + end_error;
+    float end_near = has_ends ? end_middle - end_reach : -FAR, end_far = has_ends ? end_middle + end_reach : FAR;
+    float near = max(side_near, end_near), far = min(side_far, end_far);
+    int never = if_negative(b.w) | if_negative(far - near) | if_negative(far + (closest_t + place_error()));
+    never |= has_side && crosses ? if_negative(discriminant + error) : 0;
+    return key_of(near + (closest_t - 4.0 * place_error()), never, k);
+}
+
+void settle_cone(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {}

@@ -1,0 +1,49 @@
+// Eight rays searched together, where invocations can hand each other numbers at the price of one instruction: each
+// fetches one row of eight, and what any of the rays needs all of them look at. Elsewhere every ray is for itself.
+//
+// OCTETS: subgroups of eight invocations, all of them there. Whatever decides which way a loop goes must then be the
+// same for all eight.
+
+#if OCTETS
+#extension GL_KHR_shader_subgroup_shuffle : require
+
+bool any_of_packet(bool mine) {
+    uint any = uint(mine);
+    any |= subgroupShuffleXor(any, 1u);
+    any |= subgroupShuffleXor(any, 2u);
+    any |= subgroupShuffleXor(any, 4u);
+    return any != 0u;
+}
+
+uint bits_of_packet(uint mine) {
+    uint all = mine;
+    all |= subgroupShuffleXor(all, 1u);
+    all |= subgroupShuffleXor(all, 2u);
+    all |= subgroupShuffleXor(all, 4u);
+    return all;
+}
+
+// Where the packet's rays go, all in all; of invocations that count for nothing, the zero vector.
+vec3 of_packet(vec3 mine) {
+    vec3 sum = mine;
+    sum += subgroupShuffleXor(sum, 1u);
+    sum += subgroupShuffleXor(sum, 2u);
+    sum += subgroupShuffleXor(sum, 4u);
+    return sum;
+}
+
+// Row `first + stride * k`, k < 8, of which this invocation has fetched the one with its own number.
+#define OWN_ROW(rows, first, stride) texelFetch(rows, int((first) + (stride) * gl_SubgroupInvocationID))
+#define ROW_OF_EIGHT(own, rows, first, stride, k) subgroupShuffle(own, k)
+#else
+bool any_of_packet(bool mine) { return mine; }
+uint bits_of_packet(uint mine) { return mine; }
+vec3 of_packet(vec3 mine) { return mine; }
+#define OWN_ROW(rows, first, stride) vec4(0.0)
+#define ROW_OF_EIGHT(own, rows, first, stride, k) texelFetch(rows, int((first) + (stride) * (k)))
+#endif
+
+#define EIGHT_TIMES(WORK) WORK(0u) WORK(1u) WORK(2u) WORK(3u) WORK(4u) WORK(5u) WORK(6u) WORK(7u)
+
+// Loops are left at the end of their body: a CPU driver goes through a body until it has let every invocation go, and
+// through all of it once more for nobody where they go at its head.

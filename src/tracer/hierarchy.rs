@@ -1,0 +1,119 @@
+//! In which order the solids of a kind lie, and the boxes over them: what `glsl/whitted/hierarchy.glsl` goes down.
+//!
+//! Level 0 are the solids; box `j` of level `h` is around those from `j·8ʰ` on, 8ʰ of them or the rest. So the order is
+//! the whole structure, and a solid that changes changes one box of each level.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+/// A box around a solid or several.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    pub low: DVec3,
+    pub high: DVec3,
+}
+
+impl Bounds {
+    /// Around nothing.
+    pub const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
+
+    pub fn union(self, other: Self) -> Self {
+        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
+    }
+
+    fn middle(&self) -> DVec3 {
+        self.low.midpoint(self.high)
+    }
+}
+
+/// Boxes in a group, and solids in a box of level 1.
+pub const GROUP: usize = 8;
+
+/// The top level has no more boxes than this: the search looks at them all.
+const TOP: usize = 32;
+
+/// Levels over so many solids. Up to [`TOP`] of them the search does without: it looks at all of them.
+pub fn level_count(solids: usize) -> usize {
+    let mut count = solids;
+    let mut levels = 0;
+    while count > TOP {
+        count = count.div_ceil(GROUP);
+        levels += 1;
+    }
+    levels
+}
+
+/// One level over the solids.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    pub boxes: Vec<Bounds>,
+    /// Of each group of boxes, the axis along which they lie one behind the other.
+    pub orders: Vec<usize>,
+}
+
+/// The order of the solids, as places in `bounds`: neighbours in space are neighbours in it.
+pub fn order(bounds: &[Bounds]) -> Vec<u32> {
+    let mut places: Vec<(u32, DVec3)> = (0..).zip(bounds.iter().map(Bounds::middle)).collect();
+    sort(&mut places);
+    places.into_iter().map(|(place, _)| place).collect()
+}
+
+/// Cuts in two at a multiple of the largest power of eight that fits, across the longest side of the middles, and each
+/// half again: no box of any level reaches over the cut.
+fn sort(places: &mut [(u32, DVec3)]) {
+    if places.len() <= 2 {
+        return;
+    }
+    let mut block = 1;
+    while block * GROUP < places.len() {
+        block *= GROUP;
+    }
+    let blocks = places.len().div_ceil(block);
+    let cut = blocks / 2 * block;
+    let axis = longest_side(places.iter().map(|(_, middle)| *middle));
+    let along = |(place, middle): &(u32, DVec3)| (middle[axis], *place);
+    places.select_nth_unstable_by(cut, |a, b| {
+        let (a, b) = (along(a), along(b));
+        a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))
+    });
+    let (low, high) = places.split_at_mut(cut);
+    const WORTH_A_TASK: usize = 4096;
+    if low.len() + high.len() > WORTH_A_TASK {
+        rayon::join(|| sort(low), || sort(high));
+    } else {
+        sort(low);
+        sort(high);
+    }
+}
+
+fn longest_side(middles: impl Iterator<Item = DVec3>) -> usize {
+    let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    for middle in middles {
+        low = low.min(middle);
+        high = high.max(middle);
+    }
+    let side = high - low;
+    if side.x >= side.y && side.x >= side.z {
+        0
+    } else if side.y >= side.z {
+        1
+    } else {
+        2
+    }
+}
+
+/// The levels over solids that lie in [their order](order), from level 1 on.
+pub fn levels(ordered: &[Bounds]) -> Vec<Level> {
+    let mut levels: Vec<Level> = Vec::new();
+    for _ in 0..level_count(ordered.len()) {
+        let below = levels.last().map_or(ordered, |level| &level.boxes);
+        let boxes: Vec<_> = below.par_chunks(GROUP).map(around).collect();
+        let orders = boxes.par_chunks(GROUP).map(|group| longest_side(group.iter().map(Bounds::middle))).collect();
+        levels.push(Level { boxes, orders });
+    }
+    levels
+}
+
+fn around(group: &[Bounds]) -> Bounds {
+    group.iter().copied().fold(Bounds::EMPTY, Bounds::union)
+}

@@ -1,0 +1,125 @@
+//! What the search tries before the kernel solves anything: the outlines of `glsl/whitted/outlines.glsl` and the boxes of
+//! `hierarchy.glsl`, rounded to the safe side. Kernel frame.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::hierarchy::{Bounds, GROUP, Level};
+use super::whitted::Precision;
+use super::whitted_records::{KernelFrame, row, unit};
+use crate::scene::{Solid, SolidKind, world_from_box};
+
+/// A row of the texel buffer.
+type Row = [f32; 4];
+
+/// `place_error` of `glsl/whitted/beam.glsl`.
+fn place_error(frame: KernelFrame) -> f32 {
+    8.0 * f32::EPSILON * frame.reach
+}
+
+/// `chord_rounding` of `glsl/whitted/outlines.glsl` for the `f64` kernel.
+fn chord_rounding(frame: KernelFrame) -> f64 {
+    f64::from(32.0 * f32::EPSILON * frame.reach * frame.reach)
+}
+
+/// A size that no ray finds a way through.
+const IMPOSSIBLE: f32 = -1e30;
+
+/// One row for a sphere, two for the others.
+pub fn outline(
+    solid: &Solid,
+    bounds: Bounds,
+    frame: KernelFrame,
+    precision: Precision,
+) -> impl Iterator<Item = Row> + use<> {
+    let narrow = |vector: DVec3, fourth: f64| row(vector, fourth).map(|number| number as f32);
+    let scale = frame.scale;
+    let (first, second) = match *solid {
+        Solid::Sphere { center, radius } => {
+            let radius = radius * scale;
+            let (radius, rounding) = match precision {
+                Precision::F32 => (f64::from(radius as f32), 0.0),
+                Precision::F64 => (radius, chord_rounding(frame)),
+            };
+            let mut sphere = narrow(frame.point(center), radius * radius + rounding);
+            sphere[3] = sphere[3].next_up();
+            (sphere, None)
+        }
+        Solid::Box { .. } => {
+            let [middle, half_size] = box_rows(bounds, frame, if is_turned(solid) { 0.0 } else { 1.0 });
+            (middle, Some(half_size))
+        }
+        Solid::Cylinder { ends: [a, b], radius } => {
+            let (half_a, half_b) = (frame.point(a) * 0.5, frame.point(b) * 0.5);
+            let half_axis = half_b - half_a;
+            let axis = unit((half_axis, DVec3::ZERO)).0;
+            (narrow(half_a + half_b, radius * scale), Some(narrow(axis, half_axis.length())))
+        }
+        Solid::Cone { apex, axis, height, half_angle_degrees } => {
+            let tangent_of_half = (half_angle_degrees.to_radians() / 2.0).tan();
+            (narrow(frame.point(apex), height * scale), Some(narrow(axis, tangent_of_half)))
+        }
+    };
+    [first].into_iter().chain(second)
+}
+
+/// What makes a group whole: an outline that is never met.
+pub fn nothing(kind: SolidKind) -> Vec<Row> {
+    match kind {
+        SolidKind::Sphere => vec![[0.0, 0.0, 0.0, IMPOSSIBLE]],
+        SolidKind::Box => NO_BOX.to_vec(),
+        SolidKind::Cylinder | SolidKind::Cone => vec![[0.0; 4], [0.0, 0.0, 0.0, -1.0]],
+    }
+}
+
+const NO_BOX: [Row; 2] = [[0.0; 4], [IMPOSSIBLE, IMPOSSIBLE, IMPOSSIBLE, 0.0]];
+
+pub fn is_turned(solid: &Solid) -> bool {
+    matches!(solid, Solid::Box { rotation_degrees, .. } if *rotation_degrees != DVec3::ZERO)
+}
+
+/// Middle and half size, rounded outwards.
+fn box_rows(bounds: Bounds, frame: KernelFrame, fourth: f32) -> [Row; 2] {
+    let [x, y, z] = bounds.low.midpoint(bounds.high).as_vec3().to_array();
+    let [half_x, half_y, half_z] = ((bounds.high - bounds.low) * 0.5).as_vec3().to_array();
+    let outwards = 2.0 * place_error(frame);
+    [[x, y, z, 0.0], [half_x + outwards, half_y + outwards, half_z + outwards, fourth]]
+}
+
+/// Two rows a box, in whole groups.
+pub fn level_rows(level: &Level, frame: KernelFrame) -> Vec<Row> {
+    let boxes = level.boxes.par_iter().enumerate();
+    let mut rows: Vec<_> =
+        boxes.flat_map_iter(|(index, bounds)| box_rows(*bounds, frame, level.orders[index / GROUP] as f32)).collect();
+    let missing = level.boxes.len().next_multiple_of(GROUP) - level.boxes.len();
+    rows.extend(std::iter::repeat_n(NO_BOX, missing).flatten());
+    rows
+}
+
+/// A box around a solid, kernel frame.
+pub fn bounds(solid: &Solid, frame: KernelFrame) -> Bounds {
+    let around = |center: DVec3, reach: DVec3| Bounds { low: center - reach, high: center + reach };
+    // Of a disk across an axis, along each coordinate.
+    let disk = |axis: DVec3, radius: f64| (DVec3::ONE - axis * axis).max(DVec3::ZERO).map(f64::sqrt) * radius;
+    let scale = frame.scale;
+    match *solid {
+        Solid::Sphere { center, radius } => around(frame.point(center), DVec3::splat(radius * scale)),
+        Solid::Box { center, half_size, rotation_degrees } => {
+            let axes = world_from_box(rotation_degrees);
+            let half_size = half_size * scale;
+            let reach =
+                axes.x_axis.abs() * half_size.x + axes.y_axis.abs() * half_size.y + axes.z_axis.abs() * half_size.z;
+            around(frame.point(center), reach)
+        }
+        Solid::Cylinder { ends: [a, b], radius } => {
+            let (a, b) = (frame.point(a), frame.point(b));
+            let reach = disk(unit((b * 0.5 - a * 0.5, DVec3::ZERO)).0, radius * scale);
+            around(a, reach).union(around(b, reach))
+        }
+        Solid::Cone { apex, axis, height, half_angle_degrees } => {
+            let (apex, height) = (frame.point(apex), height * scale);
+            let reach = disk(axis, height * half_angle_degrees.to_radians().tan());
+            around(apex, DVec3::ZERO).union(around(apex + axis * height, reach))
+        }
+    }
+}
