@@ -1,6 +1,7 @@
 //! What a frame is worth: how far it is from another, and what it costs.
 
 mod discontinuity;
+pub mod fps_table;
 mod image_error;
 mod mask;
 pub mod stability;
