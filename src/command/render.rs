@@ -75,7 +75,7 @@ pub struct RenderArgs {
     pub json: bool,
 }
 
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let sides = text.split_once(['x', 'X', '×']);
     let size = sides.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
     let (width, height) = size.ok_or("it must be WIDTHxHEIGHT in pixels, such as 1621x701")?;
