@@ -33,7 +33,8 @@ pub enum Kernel {
 /// out. Ctrl-C keeps what is measured, where -o names a file for it.
 #[derive(Debug, Clone, Args)]
 pub struct FpsArgs {
-    /// Measure each kernel so long in a cell [default: 5 frames or 3 s, whichever is first]
+    /// Measure each kernel so long in a cell, seconds [default: 3 s or 5 frames, whichever is first, but 2 frames and
+    /// 0.25 s at least]
     #[arg(long, value_name = "S", value_parser = parse_seconds)]
     pub seconds: Option<Duration>,
     /// As the course work did: 30 s in a cell

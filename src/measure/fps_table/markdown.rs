@@ -26,8 +26,8 @@ fn head(table: &FpsTable) -> Vec<String> {
         format!("- program: {}", machine.program),
         format!("- picture: {}x{} pixels, {} generations, as in figure 4.1", plan.width, plan.height, plan.generations),
         format!(
-            "- a cell: the median frame after one to warm up, of at most {} frames or {seconds} s of each kernel, taken in \
-             turns; in brackets the quartiles",
+            "- a cell: the median frame of {} frames or {seconds} s of each kernel, which take turns, after one to warm \
+             up; in brackets the quartiles",
             plan.budget.frames
         ),
     ];

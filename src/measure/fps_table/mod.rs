@@ -135,32 +135,36 @@ impl Plan {
     }
 }
 
-/// When a kernel has been measured enough in a cell: after either of these, but never after fewer than
-/// [`Budget::MIN_FRAMES`].
+/// When a kernel has been measured enough in a cell: after its time or after its frames, whichever is first, but never
+/// after fewer frames than [`Budget::MIN_FRAMES`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Budget {
     /// Wall time of the kernel's frames, milliseconds.
     pub time_ms: u64,
     pub frames: usize,
+    /// Frames are not enough before so much time, milliseconds: a fast device raises its clock under load only.
+    pub least_ms: u64,
 }
 
 impl Budget {
     /// One frame has no spread.
     pub const MIN_FRAMES: usize = 2;
-    /// A figure in a few minutes on a slow device, in a moment on a fast one.
-    pub const QUICK: Self = Self { time_ms: 3000, frames: 5 };
+    /// Figures in minutes on a slow device, in half a minute on a fast one.
+    pub const QUICK: Self = Self { time_ms: 3000, frames: 5, least_ms: 250 };
 
     /// As long as told; a device that is through with ten thousand frames before has shown what it can, and its file
     /// shall be of a size to be opened.
     pub fn lasting(time: Duration) -> Self {
-        Self { time_ms: time.as_millis() as u64, frames: 10_000 }
+        Self { time_ms: time.as_millis() as u64, frames: 10_000, least_ms: 0 }
     }
 
     /// How much of the measuring is done, 1 or more where all is.
     fn share_done(self, frames: usize, time: Duration) -> f64 {
         let of_frames = |all: usize| frames as f64 / all as f64;
-        let of_time = time.as_secs_f64() * 1e3 / self.time_ms as f64;
-        of_frames(self.frames).max(of_time).min(of_frames(Self::MIN_FRAMES))
+        // Nothing of nothing is all of it.
+        let of_time = |all_ms: u64| if all_ms == 0 { 1.0 } else { time.as_secs_f64() * 1e3 / all_ms as f64 };
+        let by_frames = of_frames(self.frames).min(of_time(self.least_ms));
+        by_frames.max(of_time(self.time_ms)).min(of_frames(Self::MIN_FRAMES))
     }
 }
 
@@ -317,7 +321,8 @@ mod tests {
         let done = |budget: Budget, frames, ms| budget.share_done(frames, Duration::from_millis(ms)) >= 1.0;
         let quick = Budget::QUICK;
         assert!(!done(quick, 1, 60_000) && done(quick, 2, 60_000));
-        assert!(!done(quick, 4, 2999) && done(quick, 4, 3000) && done(quick, 5, 10));
+        assert!(!done(quick, 4, 2999) && done(quick, 4, 3000));
+        assert!(!done(quick, 5, 249) && done(quick, 5, 250) && !done(quick, 100, 249));
         let full = Budget::lasting(Duration::from_secs(30));
         assert!(!done(full, 500, 29_999) && done(full, 500, 30_000) && done(full, 10_000, 1000));
     }
