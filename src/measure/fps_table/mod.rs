@@ -62,14 +62,17 @@ pub struct Machine {
     pub device: String,
     /// Name and version.
     pub driver: String,
-    /// This program, its version and, where it is known, its commit.
+    /// This program, its version and, where it was built in a clone, the commit that it was built on: edits since are
+    /// not told.
     pub program: String,
 }
 
 impl Machine {
     /// This program on a device.
     pub fn of(device: &DeviceDescription) -> Self {
-        let program = concat!("zerkalo ", env!("CARGO_PKG_VERSION")).to_owned();
+        let version = concat!("zerkalo ", env!("CARGO_PKG_VERSION"));
+        let program = option_env!("ZERKALO_COMMIT")
+            .map_or(version.to_owned(), |commit| format!("{version} (on commit {commit})"));
         Self { device: device.name.clone(), driver: device.driver.clone(), program }
     }
 }
