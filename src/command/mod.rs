@@ -2,6 +2,7 @@
 
 pub mod compare;
 pub mod devices;
+pub mod fps;
 pub mod gallery;
 pub mod interrupt;
 pub mod render;
@@ -17,6 +18,7 @@ use serde::Serialize;
 
 use crate::frame::FrameError;
 use crate::gpu::{GpuError, Message};
+use crate::measure::fps_table::FpsTableError;
 use crate::scene::{Scene, SceneError, gallery as ready};
 use crate::tracer::TracerError;
 use crate::viewer::ViewerError;
@@ -27,6 +29,7 @@ pub enum Command {
     Render(render::RenderArgs),
     Compare(compare::CompareArgs),
     Stability(stability::StabilityArgs),
+    Fps(fps::FpsArgs),
     Devices(devices::DevicesArgs),
     Gallery(gallery::GalleryArgs),
 }
@@ -38,6 +41,7 @@ impl Command {
             Self::Render(args) => render::run(args),
             Self::Compare(args) => Ok(compare::run(args)?),
             Self::Stability(args) => stability::run(args),
+            Self::Fps(args) => fps::run(args),
             Self::Devices(args) => devices::run(args),
             Self::Gallery(args) => gallery::run(args),
         }
@@ -97,9 +101,10 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.downcast_ref().is_some_and(GpuError::is_input_error)
             || cause.downcast_ref().is_some_and(TracerError::is_input_error)
             || cause.downcast_ref().is_some_and(ViewerError::is_input_error)
+            || cause.downcast_ref().is_some_and(FpsTableError::is_input_error)
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });
-    if matches!(error.downcast_ref(), Some(TracerError::Stopped)) {
+    if matches!(error.downcast_ref(), Some(TracerError::Stopped)) || error.is::<fps::Stopped>() {
         interrupt::EXIT_CODE
     } else if is_input_error {
         2

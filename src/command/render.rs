@@ -12,6 +12,7 @@ use super::interrupt::Listener;
 use super::{DeviceArgs, print_json, refuse_messages, scene_named};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Message, Validation};
+use crate::measure::median;
 use crate::reference::{self, RenderError};
 use crate::scene::{DEPTH_LIMIT, Scene};
 use crate::tracer::{self, Settings, Tracer, TracerError};
@@ -74,7 +75,7 @@ pub struct RenderArgs {
     pub json: bool,
 }
 
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let sides = text.split_once(['x', 'X', '×']);
     let size = sides.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
     let (width, height) = size.ok_or("it must be WIDTHxHEIGHT in pixels, such as 1621x701")?;
@@ -250,25 +251,9 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
     super::print_line(&format!("wrote {} ({width}x{height}, {device}, {time}{of})", output.escape_debug()))
 }
 
-/// The middle of the sorted samples; of two middles, their mean.
-fn median(samples_ns: &[u64]) -> Option<u64> {
-    let mut sorted = samples_ns.to_vec();
-    sorted.sort_unstable();
-    let (low, high) = (sorted.len().checked_sub(1)? / 2, sorted.len() / 2);
-    Some(sorted[low].midpoint(sorted[high]))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn median_is_the_middle_or_the_mean_of_two() {
-        assert_eq!(median(&[]), None);
-        assert_eq!(median(&[7]), Some(7));
-        assert_eq!(median(&[9, 1, 5]), Some(5));
-        assert_eq!(median(&[1, 2, 8, 100]), Some(5));
-    }
 
     #[test]
     fn sizes_are_two_sides_within_the_limits() {

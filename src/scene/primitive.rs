@@ -1,4 +1,5 @@
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::Material;
 
@@ -18,8 +19,9 @@ impl Primitive {
     }
 }
 
-/// Which of the four solids, without its sizes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+/// Which of the four solids, without its sizes; in JSON by its [name](SolidKind::name).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum SolidKind {
     Sphere,
     Box,

@@ -1,0 +1,235 @@
+//! `zerkalo fps`: table 4.1 of the course work, measured here.
+
+use std::fs;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use anyhow::{Context, Result};
+use clap::{Args, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use super::interrupt::Listener;
+use super::render::parse_size;
+use super::{DeviceArgs, print_line, refuse_messages};
+use crate::gpu::{Device, Validation};
+use crate::measure::fps_table::{self, Budget, FpsTable, FpsTableError, Machine, Plan, ReportFormat};
+use crate::scene::SolidKind;
+use crate::tracer::TracerError;
+
+/// Kernels that the table is of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Kernel {
+    /// The course work's
+    Course,
+    /// The accurate model
+    Whitted,
+}
+
+/// Measure frames a second by kind and number of solids, as in table 4.1 of the course work, beside its figures
+///
+/// Kernels take turns within a cell, so that what else the machine does meets them alike; the first frame of each is left
+/// out. Ctrl-C keeps what is measured, where -o names a file for it.
+#[derive(Debug, Clone, Args)]
+pub struct FpsArgs {
+    /// Measure each kernel so long in a cell, seconds [default: 3 s or 5 frames, whichever is first, but 2 frames and
+    /// 0.25 s at least]
+    #[arg(long, value_name = "S", value_parser = parse_seconds)]
+    pub seconds: Option<Duration>,
+    /// As the course work did: 30 s in a cell
+    #[arg(long, conflicts_with = "seconds")]
+    pub full: bool,
+    /// Only this kernel [default: both]
+    #[arg(long, value_enum)]
+    pub kernel: Option<Kernel>,
+    /// Numbers of solids, of 10, 20 and so on to 100 [default: all]
+    #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = parse_count)]
+    pub counts: Vec<usize>,
+    /// Pixels, each side 1 to 16384 [default: 1621x701]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(u32, u32)>,
+    /// Where to write the table: a file (.json with every sample, .csv, .md; .png, .svg: its chart), or a folder for one
+    /// of each, called fps; may be repeated
+    #[arg(short, long, value_name = "DIR|FILE")]
+    pub output: Vec<PathBuf>,
+    /// Go on with a table that was interrupted, on the same device and as it was begun
+    #[arg(long, value_name = "JSON")]
+    pub resume: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    /// Run under core, synchronization and GPU-assisted validation, which takes its time; any message is a failure
+    #[arg(long)]
+    pub validate: bool,
+}
+
+/// Ctrl-C before the table was whole.
+#[derive(Debug, thiserror::Error)]
+#[error("stopped, {measured} of {all} places of the table measured; {advice}")]
+pub struct Stopped {
+    measured: usize,
+    all: usize,
+    advice: String,
+}
+
+fn parse_seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<f64>().ok().filter(|seconds| (0.001..=3600.0).contains(seconds));
+    seconds.map(Duration::from_secs_f64).ok_or("it must be a number of seconds, 0.001 to 3600".to_owned())
+}
+
+fn parse_count(text: &str) -> Result<usize, String> {
+    let count = text.trim().parse().ok().filter(|count| Plan::course_counts().contains(count));
+    count.ok_or("table 4.1 has 10, 20 and so on to 100 solids".to_owned())
+}
+
+pub fn run(args: &FpsArgs) -> Result<()> {
+    let begun = args.resume.as_deref().map(FpsTable::load).transpose()?;
+    let plan = plan(args, begun.as_ref().map(|table| &table.plan));
+    let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
+    let device = Device::open(args.device.device.as_deref(), validation)?;
+    let machine = Machine::of(device.description());
+    let mut table = match (&args.resume, begun) {
+        (Some(path), Some(begun)) => {
+            begun.check_goes_on(path, &machine, &plan)?;
+            begun
+        }
+        _ => FpsTable::new(machine, plan),
+    };
+    let outputs = outputs(args)?;
+    let messages = device.messages().clone();
+
+    let is_complete = fill(&mut table, &device, &outputs)?;
+    drop(device);
+    save(&table, &outputs, |_| true)?;
+    print_line(if args.json { table.to_json() } else { table.to_markdown() }.trim_end())?;
+    warn_of_outliers(&table);
+    if !is_complete {
+        return Err(stopped(&table, args, &outputs).into());
+    }
+    refuse_messages(&messages.to_vec())
+}
+
+/// As told, else as begun, else as the course work's table with little time.
+fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
+    let base = begun.cloned().unwrap_or_else(Plan::of_course);
+    let (width, height) = args.size.unwrap_or((base.width, base.height));
+    let kernels = args.kernel.map(|kernel| match kernel {
+        Kernel::Course => vec![fps_table::Kernel::Course],
+        Kernel::Whitted => vec![fps_table::Kernel::Whitted],
+    });
+    let mut counts = if args.counts.is_empty() { base.counts } else { args.counts.clone() };
+    counts.sort_unstable();
+    counts.dedup();
+    let time = if args.full { Some(Duration::from_secs(30)) } else { args.seconds };
+    Plan {
+        width,
+        height,
+        generations: base.generations,
+        kernels: kernels.unwrap_or(base.kernels),
+        counts,
+        budget: time.map_or(base.budget, Budget::lasting),
+        validation: args.validate,
+    }
+}
+
+/// Every file to write, of which it is known that it can be written. A name without an extension is a folder's.
+fn outputs(args: &FpsArgs) -> Result<Vec<PathBuf>> {
+    let mut outputs = Vec::new();
+    for path in &args.output {
+        if path.is_dir() || path.extension().is_none() {
+            fs::create_dir_all(path).with_context(|| format!("could not create folder {path:?}"))?;
+            outputs.extend(ReportFormat::ALL.map(|format| path.join("fps").with_extension(format.extension())));
+        } else {
+            outputs.push(path.clone());
+        }
+    }
+    outputs.extend(args.resume.clone().filter(|path| !outputs.contains(path)));
+    outputs.iter().try_for_each(|path| FpsTable::check_output_path(path))?;
+    Ok(outputs)
+}
+
+/// Measures what is missing, and writes the table after every place of it; false after Ctrl-C.
+fn fill(table: &mut FpsTable, device: &Arc<Device>, outputs: &[PathBuf]) -> Result<bool> {
+    let missing = table.missing();
+    // The more solids, the longer.
+    let bar = progress_bar(missing.iter().map(|(_, count)| *count as u64).sum());
+    let listener = Listener::start();
+    for (kind, count) in missing {
+        bar.set_message(format!("{count} of the kind {}", kind.name()));
+        let measured = fps_table::measure(device, &table.plan, kind, count, &mut || {
+            bar.tick();
+            if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        match measured {
+            Ok(cells) => table.put(cells),
+            Err(TracerError::Stopped) => {
+                bar.finish_and_clear();
+                return Ok(false);
+            }
+            Err(error) => return Err(error.into()),
+        }
+        // A chart of half a table is drawn at the end only.
+        save(table, outputs, |format| !format.is_chart())?;
+        bar.inc(count as u64);
+    }
+    bar.finish_and_clear();
+    Ok(true)
+}
+
+fn save(table: &FpsTable, outputs: &[PathBuf], wanted: impl Fn(ReportFormat) -> bool) -> Result<(), FpsTableError> {
+    for path in outputs {
+        if wanted(ReportFormat::of(path)?) {
+            table.save(path)?;
+        }
+    }
+    Ok(())
+}
+
+/// Drawn on a terminal only.
+fn progress_bar(solids: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (about {eta} left) {msg}");
+    ProgressBar::new(solids).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+}
+
+fn warn_of_outliers(table: &FpsTable) {
+    let outliers = table.outliers();
+    if outliers.is_empty() {
+        return;
+    }
+    eprintln!("zerkalo: frames beyond three interquartile ranges from the quartiles:");
+    outliers.iter().for_each(|line| eprintln!("  {line}"));
+    eprintln!(
+        "zerkalo: something else ran then, or the clock changed; medians hardly move, but for a better table close other \
+         programs, fix the clock, or measure longer (--seconds)"
+    );
+}
+
+fn stopped(table: &FpsTable, args: &FpsArgs, outputs: &[PathBuf]) -> Stopped {
+    let all = table.plan.counts.len() * SolidKind::ALL.len();
+    let json = outputs.iter().find(|path| matches!(ReportFormat::of(path), Ok(ReportFormat::Json)));
+    let advice = match json {
+        Some(json) => {
+            let more = args.output.iter().filter(|path| *path != json).map(|path| format!(" -o {path:?}"));
+            let validate = if args.validate { " --validate" } else { "" };
+            format!("to go on: zerkalo fps --resume {json:?}{}{validate}", more.collect::<String>())
+        }
+        None => "no file keeps their samples: name one by -o to go on from it".to_owned(),
+    };
+    Stopped { measured: all - table.missing().len(), all, advice }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_and_counts_are_within_their_limits() {
+        assert_eq!(parse_seconds("0.5"), Ok(Duration::from_millis(500)));
+        assert!(["0", "-1", "nan", "inf", "3601", "1e-9", "x", ""].iter().all(|bad| parse_seconds(bad).is_err()));
+        assert_eq!((parse_count("10"), parse_count("100")), (Ok(10), Ok(100)));
+        assert!(["0", "5", "110", "-10", "ten", ""].iter().all(|bad| parse_count(bad).is_err()));
+    }
+}

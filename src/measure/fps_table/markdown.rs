@@ -1,0 +1,244 @@
+//! The table for people: Markdown whose columns also stand in line in a terminal.
+
+use super::{Agreement, Cell, Clock, FpsTable, Kernel, Speeds, frames_per_second, published};
+use crate::scene::SolidKind;
+
+/// Title, machine, a section a kernel, the kernels side by side, and what agrees with the course work.
+pub fn of(table: &FpsTable) -> String {
+    let mut lines = head(table);
+    for &kernel in &table.plan.kernels {
+        lines.extend(of_kernel(table, kernel));
+    }
+    if let [first, second] = table.plan.kernels[..] {
+        lines.extend(side_by_side(table, first, second));
+    }
+    lines.extend(agreement(table));
+    lines.join("\n") + "\n"
+}
+
+fn head(table: &FpsTable) -> Vec<String> {
+    let (machine, plan) = (&table.machine, &table.plan);
+    let seconds = plan.budget.time_ms as f64 / 1e3;
+    let mut lines = vec![
+        "# Frames a second: table 4.1 measured anew".to_owned(),
+        String::new(),
+        format!("- device: {} ({})", machine.device, machine.driver),
+        format!("- program: {}", machine.program),
+        format!("- picture: {}x{} pixels, {} generations, as in figure 4.1", plan.width, plan.height, plan.generations),
+        format!(
+            "- a cell: the median frame of {} frames or {seconds} s of each kernel, which take turns, after one to warm \
+             up; in brackets the quartiles",
+            plan.budget.frames
+        ),
+    ];
+    if plan.validation {
+        lines.push("- under validation: these speeds say nothing of the machine's".to_owned());
+    }
+    let missing = table.missing().len();
+    if missing > 0 {
+        let all = plan.counts.len() * SolidKind::ALL.len();
+        lines.push(format!("- not complete: {} of {all} places of the table are measured", all - missing));
+    }
+    lines
+}
+
+fn of_kernel(table: &FpsTable, kernel: Kernel) -> Vec<String> {
+    let (name, clock, published) = (kernel.name(), table.clock(), published());
+    let speeds = table.speeds(kernel, clock);
+    let fewest = table.plan.fewest();
+    let mut lines = Vec::new();
+    for shown in [Clock::Gpu, Clock::Wall] {
+        let of = match shown {
+            Clock::Gpu => "by GPU time (the tracing alone)",
+            Clock::Wall => "by wall time (to the picture in the host's memory, nothing shown)",
+        };
+        let title = format!("{name}: frames a second {of}");
+        let cell = |kind, count| table.cell(kind, count, kernel).and_then(|cell| spread(cell, shown));
+        if shown == clock {
+            lines.extend(section(&title, table, Some("published"), cell, |kind, count| {
+                published.get(kind, count).map(figure)
+            }));
+        } else {
+            lines.extend(section(&title, table, None, cell, |_, _| None));
+        }
+    }
+    lines.extend(section(
+        &format!("{name}: in parts of the speed with {fewest}"),
+        table,
+        Some("published"),
+        |kind, count| speeds.of_fewest(kind, count, fewest).map(part),
+        |kind, count| published.of_fewest(kind, count, fewest).map(part),
+    ));
+    lines.extend(section(
+        &format!("{name}: in parts of the speed with as many spheres"),
+        table,
+        Some("published"),
+        |kind, count| speeds.of_spheres(kind, count).map(part),
+        |kind, count| published.of_spheres(kind, count).map(part),
+    ));
+    lines
+}
+
+/// How many frames the second draws while the first draws one.
+fn side_by_side(table: &FpsTable, first: Kernel, second: Kernel) -> Vec<String> {
+    let of = |kernel| table.speeds(kernel, table.clock());
+    let (of_first, of_second) = (of(first), of(second));
+    let ratio = |kind, count| Some(figure(of_second.get(kind, count)? / of_first.get(kind, count)?));
+    let title = format!("Frames of the {} kernel to one of the {} kernel", second.name(), first.name());
+    section(&title, table, None, ratio, |_, _| None)
+}
+
+/// A row a number of solids, a column a kind, with a second column beside each where it has a name.
+fn section(
+    title: &str,
+    table: &FpsTable,
+    beside: Option<&str>,
+    cell: impl Fn(SolidKind, usize) -> Option<String>,
+    cell_beside: impl Fn(SolidKind, usize) -> Option<String>,
+) -> Vec<String> {
+    let both = |first: String, second: Option<String>| [Some(first), second].into_iter().flatten();
+    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "–".to_owned());
+    let names = SolidKind::ALL.into_iter().flat_map(|kind| both(kind.name().to_owned(), beside.map(str::to_owned)));
+    let mut rows = vec![["n".to_owned()].into_iter().chain(names).collect::<Vec<_>>()];
+    for &count in &table.plan.counts {
+        let cells = SolidKind::ALL
+            .into_iter()
+            .flat_map(|kind| both(or_dash(cell(kind, count)), beside.map(|_| or_dash(cell_beside(kind, count)))));
+        rows.push([count.to_string()].into_iter().chain(cells).collect());
+    }
+    [vec![String::new(), format!("## {}", capital(title)), String::new()], in_line(&rows)].concat()
+}
+
+fn agreement(table: &FpsTable) -> Vec<String> {
+    let speeds = |&kernel: &Kernel| (kernel.name().to_owned(), table.speeds(kernel, table.clock()));
+    let columns: Vec<(String, Speeds)> =
+        [("published".to_owned(), published())].into_iter().chain(table.plan.kernels.iter().map(speeds)).collect();
+    let found: Vec<Agreement> = columns.iter().map(|(_, speeds)| Agreement::of(speeds)).collect();
+    let mut rows = vec![["claim".to_owned()].into_iter().chain(columns.into_iter().map(|(name, _)| name)).collect()];
+    let mut row = |claim: String, verdict: &dyn Fn(&Agreement) -> Option<String>| {
+        let verdicts = found.iter().map(|found| verdict(found).unwrap_or_else(|| "–".to_owned()));
+        rows.push([claim].into_iter().chain(verdicts).collect::<Vec<_>>());
+    };
+    row("largest n of all kinds".to_owned(), &|found| found.count.map(|count| count.to_string()));
+    row("the fastest first: cone, sphere, cylinder, box".to_owned(), &|found| {
+        let order = found.order.as_ref()?.iter().map(|kind| kind.name()).collect::<Vec<_>>().join(", ");
+        Some(if found.order_agrees? { "yes".to_owned() } else { format!("no: {order}") })
+    });
+    for (place, (kind, claimed)) in super::CLAIMED_OF_SPHERES.into_iter().enumerate() {
+        row(format!("{} to sphere: {}", kind.name(), part(claimed)), &|found| {
+            let ratio = &found.ratios[place];
+            Some(format!("{}, {}", part(ratio.found?), if ratio.agrees? { "yes" } else { "no" }))
+        });
+    }
+    let tally = |(all, so): (usize, usize)| (all > 0).then(|| format!("{so} of {all} kinds"));
+    row("ever more time a frame (its curve bends up)".to_owned(), &|found| tally(found.ever_slower()));
+    row("ever more frames lost (their curve bends down)".to_owned(), &|found| tally(found.ever_steeper()));
+    row("Kendall's rank correlation with the published table".to_owned(), &|found| found.rank_correlation.map(part));
+    [vec![String::new(), "## The course work's conclusions".to_owned(), String::new()], in_line(&rows)].concat()
+}
+
+/// Rows of a Markdown table, the first the header, padded to columns: the first to the left, the others to the right.
+fn in_line(rows: &[Vec<String>]) -> Vec<String> {
+    let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |column: usize| rows.iter().filter_map(|row| Some(row.get(column)?.chars().count())).max();
+    let widths: Vec<usize> = (0..columns).map(|column| width(column).unwrap_or(0).max(2)).collect();
+    let line = |cells: Vec<String>| format!("| {} |", cells.join(" | "));
+    let padded = |row: &Vec<String>| {
+        let cells = row.iter().zip(&widths).enumerate();
+        line(
+            cells
+                .map(|(c, (cell, &width))| if c == 0 { format!("{cell:<width$}") } else { format!("{cell:>width$}") })
+                .collect(),
+        )
+    };
+    let rule = |(column, &width): (usize, &usize)| {
+        if column == 0 { "-".repeat(width) } else { "-".repeat(width - 1) + ":" }
+    };
+    let mut lines: Vec<String> = rows.iter().map(padded).collect();
+    lines.insert(1, line(widths.iter().enumerate().map(rule).collect()));
+    lines
+}
+
+/// The median frame in frames a second, the quartiles, slow and fast, in brackets.
+fn spread(cell: &Cell, clock: Clock) -> Option<String> {
+    let summary = cell.summary(clock)?;
+    let [fast, slow] = summary.quartiles_ns.map(|quartile| figure(frames_per_second(quartile)));
+    Some(format!("{} [{slow}, {fast}]", figure(frames_per_second(summary.median_ns as f64))))
+}
+
+/// Four digits.
+fn figure(value: f64) -> String {
+    let digits_before = value.abs().max(1e-6).log10().floor() as i32 + 1;
+    format!("{value:.*}", (4 - digits_before).max(0) as usize)
+}
+
+/// In parts of something: three digits behind the point.
+fn part(value: f64) -> String {
+    format!("{value:.3}")
+}
+
+fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or(String::new(), |first| first.to_uppercase().chain(chars).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::tests::example;
+    use super::*;
+
+    #[test]
+    fn figures_have_four_digits() {
+        for (value, text) in [(57.1419, "57.14"), (0.0123456, "0.01235"), (1.0, "1.000"), (123456.0, "123456")] {
+            assert_eq!(figure(value), text);
+        }
+    }
+
+    #[test]
+    fn columns_stand_in_line_and_every_table_is_markdown() {
+        let text = of(&example(&[10, 100], &Kernel::ALL));
+        let tables: Vec<Vec<&str>> = text
+            .split("\n\n")
+            .filter(|part| part.starts_with('|'))
+            .map(|part| part.trim_end().lines().collect())
+            .collect();
+        // Two clocks and two ratios a kernel, the kernels side by side, the conclusions.
+        assert_eq!(tables.len(), 2 * 4 + 2, "{text}");
+        for table in tables {
+            let widths: Vec<usize> = table.iter().map(|line| line.chars().count()).collect();
+            assert!(widths.iter().all(|width| *width == widths[0]), "{table:?}");
+            let bars: Vec<usize> = table.iter().map(|line| line.matches('|').count()).collect();
+            assert!(bars.iter().all(|count| *count == bars[0]), "{table:?}");
+            assert!(table[1].chars().all(|c| "|-: ".contains(c)), "{table:?}");
+        }
+    }
+
+    #[test]
+    fn the_machine_the_spread_and_the_published_figure_are_told() {
+        let text = of(&example(&[10, 100], &[Kernel::Course]));
+        for part in [
+            "- device: a device, of \"two\" cores (driver 1)",
+            "- program: z 1",
+            "160x70 pixels, 20 generations",
+            "| 100.0 [100.0, 100.0] |     57.14 |",
+            // 10.05 ms, between 10 and 10.05 ms.
+            "99.50 [99.50, 99.50]",
+            "no: sphere, box, cylinder, cone",
+            "4 of 4 kinds",
+        ] {
+            assert!(text.contains(part), "{part:?} is not in:\n{text}");
+        }
+        assert!(!text.contains("not complete") && !text.contains("validation") && !text.contains("whitted"), "{text}");
+    }
+
+    #[test]
+    fn what_is_missing_is_a_dash_and_said() {
+        let mut table = example(&[10, 20, 100], &[Kernel::Course]);
+        table.cells.truncate(5);
+        table.plan.validation = true;
+        let text = of(&table);
+        assert!(text.contains("- not complete: 5 of 12 places of the table are measured"), "{text}");
+        assert!(text.contains("- under validation"), "{text}");
+        assert!(text.lines().any(|line| line.starts_with("| 100 |") && line.contains("–")), "{text}");
+    }
+}
