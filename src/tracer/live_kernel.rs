@@ -5,9 +5,10 @@ use std::sync::Arc;
 use super::chunks::Part;
 use super::course::{CourseKernel, CourseScene, WORKGROUP};
 use super::records::PrimitiveRecords;
-use super::whitted::{Precision, WhittedPipeline, WhittedScene};
+use super::whitted::{WhittedPipeline, WhittedScene};
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Shader};
+use crate::plan::Precision;
 use crate::scene::{DEPTH_LIMIT, Scene};
 
 pub(super) enum LiveKernel {

@@ -22,11 +22,13 @@ pub use records::{
     BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MaterialRecord, PrimitiveRecords, SphereRecord,
 };
 
-pub use whitted::{Precision, SCENE_BINDINGS, check_precision, scene_constants, upload_scene};
+pub use crate::plan::Precision;
+pub use whitted::{SCENE_BINDINGS, check_precision, scene_constants, upload_scene};
 pub use whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};
 use crate::gpu::{BindingSet, Buffer, BufferKind, Commands, Device, GpuError, Resource, StorageImage, Timer, Use};
+use crate::plan::tile_side;
 use crate::scene::Scene;
 use chunks::Part;
 use scene_kernel::SceneKernel;
@@ -237,31 +239,5 @@ impl Tracer {
             })
         })?;
         timer.as_deref().map(Timer::elapsed_ns).transpose()
-    }
-}
-
-/// Side of a tile, pixels: at most `max`, and so small that one submission makes no more than about 2²⁸ intersection
-/// tests, if that leaves it 64 pixels. At worst every ray goes through all generations, with a shadow ray a light each.
-/// 2²⁸ tests take lavapipe on two cores a second or two: so long may Ctrl-C and the progress bar wait; on a small GPU
-/// they stay far below the seconds after which a driver takes it for hung.
-fn tile_side(max: u32, primitives: usize, lights: usize, max_depth: u32) -> u32 {
-    const TESTS: u64 = 1 << 28;
-    let tests_per_pixel = u64::from(max_depth) * (1 + lights as u64) * (primitives as u64 + 1);
-    let side = (TESTS / tests_per_pixel).isqrt() as u32;
-    // A multiple of the workgroup's side leaves no invocations idle at the tile's edge.
-    max.min((side / 8 * 8).max(64))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::tile_side;
-
-    #[test]
-    fn heavy_scenes_take_small_tiles_and_light_ones_the_largest() {
-        assert_eq!(tile_side(1024, 0, 1, 1), 1024);
-        assert_eq!(tile_side(1024, 8, 1, 8), 1024);
-        assert_eq!(tile_side(1024, 100, 1, 20), 256);
-        assert_eq!(tile_side(1024, 100, 1, 1000), 64);
-        assert_eq!(tile_side(7, 100, 1, 1000), 7);
     }
 }

@@ -7,13 +7,14 @@ use glam::DVec3;
 
 use super::course::upload;
 use super::records::{FrameRecord, PrimitiveRecords};
-use super::whitted::{Precision, SCENE_BINDINGS, scene_constants, upload_scene};
+use super::whitted::{SCENE_BINDINGS, scene_constants, upload_scene};
 use super::whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError, check_precision};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, Device, PipelineDescription, Resource, Use,
     shaders,
 };
+use crate::plan::Precision;
 use crate::reference::{Face, Side};
 use crate::scene::{Light, Primitive, Scene, Solid};
 

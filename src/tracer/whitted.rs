@@ -11,25 +11,10 @@ use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, DeviceKind, FloatWidth, GpuError,
     PipelineDescription, Recorder, Resource, arithmetic, shaders,
 };
+use crate::plan::Precision;
 use crate::scene::Scene;
 
-/// What the kernel calculates in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Precision {
-    #[default]
-    F32,
-    F64,
-}
-
 impl Precision {
-    /// Half the distance from 1 to the next number.
-    pub fn unit_roundoff(self) -> f64 {
-        match self {
-            Self::F32 => f64::from(f32::EPSILON) / 2.0,
-            Self::F64 => f64::EPSILON / 2.0,
-        }
-    }
-
     /// Of a solid, in kernel lengths: the rounding errors of its squares are still normal numbers.
     pub(super) fn smallest_length(self) -> f64 {
         match self {
@@ -62,14 +47,6 @@ impl Precision {
         match self {
             Self::F32 => rows.iter().flatten().flat_map(|&number| (number as f32).to_ne_bytes()).collect(),
             Self::F64 => bytemuck::cast_slice(rows).to_vec(),
-        }
-    }
-
-    /// The word of the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::F32 => "f32",
-            Self::F64 => "f64",
         }
     }
 }

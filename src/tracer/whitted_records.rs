@@ -7,7 +7,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 
-use super::whitted::Precision;
+use crate::plan::Precision;
 use crate::scene::{Camera, Light, Primitive, Projection, Scene, Solid, SolidKind, world_from_box};
 
 /// From the world frame to the kernel's: (world − origin)·scale, rounded once where `scale` is a power of two.
