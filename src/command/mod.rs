@@ -4,6 +4,7 @@ pub mod compare;
 pub mod devices;
 pub mod gallery;
 pub mod interrupt;
+pub mod plan;
 pub mod render;
 pub mod stability;
 pub mod view;
@@ -17,6 +18,7 @@ use serde::Serialize;
 
 use crate::frame::FrameError;
 use crate::gpu::{GpuError, Message};
+use crate::plan::PlanError;
 use crate::scene::{Scene, SceneError, gallery as ready};
 use crate::tracer::TracerError;
 use crate::viewer::ViewerError;
@@ -25,6 +27,7 @@ use crate::viewer::ViewerError;
 pub enum Command {
     View(view::ViewArgs),
     Render(render::RenderArgs),
+    Plan(plan::PlanArgs),
     Compare(compare::CompareArgs),
     Stability(stability::StabilityArgs),
     Devices(devices::DevicesArgs),
@@ -36,6 +39,7 @@ impl Command {
         match self {
             Self::View(args) => view::run(args),
             Self::Render(args) => render::run(args),
+            Self::Plan(args) => plan::run(args),
             Self::Compare(args) => Ok(compare::run(args)?),
             Self::Stability(args) => stability::run(args),
             Self::Devices(args) => devices::run(args),
@@ -97,6 +101,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.downcast_ref().is_some_and(GpuError::is_input_error)
             || cause.downcast_ref().is_some_and(TracerError::is_input_error)
             || cause.downcast_ref().is_some_and(ViewerError::is_input_error)
+            || cause.is::<PlanError>()
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });
     if matches!(error.downcast_ref(), Some(TracerError::Stopped)) {

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use anyhow::Result;
+use clap::builder::RangedI64ValueParser;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
@@ -59,7 +60,7 @@ pub struct RenderArgs {
     #[arg(long, value_enum)]
     pub precision: Option<Precision>,
     /// Generations of a ray, in place of the scene's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT)))]
+    #[arg(long, value_name = "N", value_parser = parse_depth())]
     pub max_depth: Option<u32>,
     #[command(flatten)]
     pub device: DeviceArgs,
@@ -74,7 +75,21 @@ pub struct RenderArgs {
     pub json: bool,
 }
 
-fn parse_size(text: &str) -> Result<(u32, u32), String> {
+impl Precision {
+    /// As the library calls it.
+    pub(super) fn in_library(self) -> tracer::Precision {
+        match self {
+            Self::F32 => tracer::Precision::F32,
+            Self::F64 => tracer::Precision::F64,
+        }
+    }
+}
+
+pub(super) fn parse_depth() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT))
+}
+
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let sides = text.split_once(['x', 'X', '×']);
     let size = sides.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
     let (width, height) = size.ok_or("it must be WIDTHxHEIGHT in pixels, such as 1621x701")?;
@@ -186,8 +201,7 @@ fn settings(args: &RenderArgs) -> Settings {
     let kernel = match (args.kernel, precision(args)) {
         (Kernel::Course | Kernel::Reference, _) => tracer::Kernel::Course,
         (Kernel::Plain, _) => tracer::Kernel::Plain,
-        (Kernel::Whitted, Precision::F32) => tracer::Kernel::Whitted(tracer::Precision::F32),
-        (Kernel::Whitted, Precision::F64) => tracer::Kernel::Whitted(tracer::Precision::F64),
+        (Kernel::Whitted, precision) => tracer::Kernel::Whitted(precision.in_library()),
     };
     Settings { max_depth: args.max_depth, kernel, ..Settings::new(args.size.0, args.size.1) }
 }
