@@ -112,7 +112,8 @@ fn render_writes_the_picture_and_reports_it_as_json() {
     for output in ["x.png", "x.exr"] {
         let report = place.json(&render("four", output, &["--size", "160x69", "--json", "--repeat", "2"]));
         let documented =
-            "width height kernel precision device driver gpu_time_ns samples_ns validation_messages".split(' ');
+            "width height kernel precision error_bound device driver gpu_time_ns samples_ns validation_messages"
+                .split(' ');
         assert_eq!(keys(&report), documented.collect());
         assert_eq!((&report["width"], &report["height"]), (&160.into(), &69.into()));
         assert_eq!((&report["kernel"], &report["precision"]), (&"whitted".into(), &"f32".into()));
@@ -310,7 +311,7 @@ fn the_environment_chooses_the_device_and_the_option_overrules_it() {
 #[test]
 fn wrong_arguments_are_refused_by_name() {
     let place = Place::new();
-    let wrong: [(&[&str], &str); 15] = [
+    let wrong: [(&[&str], &str); 17] = [
         (&["--size", "0x5"], "--size"),
         (&["--size", "16385x1"], "--size"),
         (&["--size", "12"], "--size"),
@@ -321,6 +322,8 @@ fn wrong_arguments_are_refused_by_name() {
         (&["--repeat", "many"], "--repeat"),
         (&["--max-depth", "0"], "--max-depth"),
         (&["--max-depth", "1001"], "--max-depth"),
+        (&["--error", "1/0"], "--error"),
+        (&["--error", "less"], "--error"),
         (&["--kernel", "none"], "--kernel"),
         (&["--precision", "f16"], "--precision"),
         (&["--unknown"], "--unknown"),
@@ -555,6 +558,22 @@ fn plan_tells_what_runs_what_is_left_out_and_why() {
     assert_eq!(run.stdout.lines().count(), 1 + decisions.len());
     assert!(run.stdout.starts_with("corridor at 1621x701 on "), "{}", run.stdout);
     assert!(about.iter().all(|what| run.stdout.contains(what)) && run.stdout.contains("; saves "), "{}", run.stdout);
+}
+
+#[test]
+fn render_tells_the_bound_on_what_an_allowed_error_changed() {
+    let place = Place::new();
+    let within = |error| place.json(&render("several", "x.exr", &["--size", "16x7", "--json", "--error", error]));
+    assert_eq!(within("0")["error_bound"], 0.0);
+    let bound = within("1/50")["error_bound"].as_f64().unwrap();
+    assert!(bound > 0.0 && bound <= 1.0 / 50.0, "{bound}");
+    assert_eq!(within("1e-4")["precision"], "f64", "f32 is not known to keep that");
+    let run = place.run(&render("several", "x.exr", &["--size", "16x7", "--error", "1/50"]));
+    assert!(run.stdout.contains("at most ") && run.stdout.lines().count() == 1, "{}", run.stdout);
+    for kernel in ["course", "plain", "reference"] {
+        let arguments = [SMALL, &["--kernel", kernel, "--error", "1/50"]].concat();
+        place.assert_refused(&render("four", "y.exr", &arguments), 2, &["whitted", "--error"]);
+    }
 }
 
 #[test]

@@ -6,6 +6,8 @@ struct WhittedFrame {
     uint depth;       // generations to trace
     uint light_count;
     uint writes_remainder; // not 0: what the colour loses by rounding to float, instead of the colour
+    float least_weight;    // a path ends as soon as it weighs no more than that; below 1
+    float least_shadowed;  // of light that is no more than that, times the path's weight, half counts, in shadow or not
 };
 layout(push_constant, std430) uniform Push { WhittedFrame frame; };
 

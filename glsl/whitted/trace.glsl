@@ -35,7 +35,8 @@ Real3 trace(Ray ray, Ranges ranges) {
     Departure departure = Departure(NOTHING, CURVED, false);
     Real weight = 1.0;
     Real3 color = Real3(0.0);
-    for (uint generation = 0u; generation < frame.depth && weight != 0.0 && turns < LOOP_TURNS; generation++) {
+    Real least_weight = Real(frame.least_weight);
+    for (uint generation = 0u; generation < frame.depth && weight > least_weight && turns < LOOP_TURNS; generation++) {
         turns++;
         Hit hit = nearest_hit(ray, departure, ranges);
         uint ball = generation == 0u ? light_ball_before(ray, hit) : NOTHING;
@@ -47,7 +48,7 @@ Real3 trace(Ray ray, Ranges ranges) {
         } else {
             Material material = materials[hit.slot];
             departure = Departure(hit.slot, hit.face, hit.inside);
-            color = limited(color + weight * emitted(hit, ray.direction, material, departure, ranges));
+            color = limited(color + weight * emitted(hit, ray.direction, material, departure, weight, ranges));
             weight *= material.specular;
             ray = Ray(hit.point, reflected(ray.direction, hit.normal));
         }

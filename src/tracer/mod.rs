@@ -28,7 +28,7 @@ pub use whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};
 use crate::gpu::{BindingSet, Buffer, BufferKind, Commands, Device, GpuError, Resource, StorageImage, Timer, Use};
-use crate::plan::tile_side;
+use crate::plan::{Cuts, Plan, tile_side};
 use crate::scene::Scene;
 use chunks::Part;
 use scene_kernel::SceneKernel;
@@ -99,12 +99,35 @@ pub struct Settings {
     /// Pixels of a workgroup along x and y.
     pub workgroup: [u32; 2],
     pub kernel: Kernel,
+    /// What is left out; the course kernel leaves out nothing.
+    pub cuts: Cuts,
 }
 
 impl Settings {
-    /// By the course kernel.
+    /// By the course kernel, exactly.
     pub fn new(width: u32, height: u32) -> Self {
-        Self { width, height, max_depth: None, max_tile_side: 1024, workgroup: WORKGROUP, kernel: Kernel::Course }
+        Self {
+            width,
+            height,
+            max_depth: None,
+            max_tile_side: 1024,
+            workgroup: WORKGROUP,
+            kernel: Kernel::Course,
+            cuts: Cuts::NONE,
+        }
+    }
+
+    /// By the accurate kernel, as a plan has it.
+    pub fn planned(plan: &Plan, width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            max_depth: Some(plan.generations.choice),
+            max_tile_side: plan.tile_side.choice,
+            workgroup: plan.workgroup.choice,
+            kernel: Kernel::Whitted(plan.precision.choice),
+            cuts: plan.cuts,
+        }
     }
 }
 
@@ -113,6 +136,8 @@ pub struct Tracer {
     kernel: SceneKernel,
     set: Arc<BindingSet>,
     tiles: Vec<Tile>,
+    /// Of the largest tile that `picture` holds, pixels.
+    tile_side: u32,
     width: u32,
     height: u32,
     picture: Resource,
@@ -143,6 +168,7 @@ impl Tracer {
             set: kernel.bind(&picture)?,
             kernel,
             tiles: tiles(width, height, tile_side),
+            tile_side,
             width,
             height,
             picture,
@@ -152,6 +178,25 @@ impl Tracer {
             commands: Commands::new(device, "trace")?,
             device: device.clone(),
         })
+    }
+
+    /// Another scene, drawn at the same size; the pipeline is kept where it fits.
+    ///
+    /// # Errors
+    /// As of [`Tracer::new`].
+    ///
+    /// # Panics
+    /// The settings have another size.
+    pub fn take_up(&mut self, scene: &Scene, settings: &Settings) -> Result<(), TracerError> {
+        let &Settings { width, height, max_depth, max_tile_side, .. } = settings;
+        assert_eq!((width, height), (self.width, self.height), "the settings are of another size");
+        let max_depth = max_depth.unwrap_or(scene.max_depth);
+        self.kernel.take_up(&self.device, scene, settings, max_depth)?;
+        self.set = self.kernel.bind(&self.picture)?;
+        let max_tile_side = max_tile_side.clamp(1, self.tile_side);
+        let tile_side = tile_side(max_tile_side, scene.primitives.len(), scene.lights.len(), max_depth);
+        self.tiles = tiles(width, height, tile_side);
+        Ok(())
     }
 
     /// An empty frame of the right size for [`Tracer::render`].

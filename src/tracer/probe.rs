@@ -134,6 +134,8 @@ impl Probe {
             depth: 1,
             light_count: 0,
             writes_remainder: 0,
+            least_weight: 0.0,
+            least_shadowed: 0.0,
         };
         let scene = upload_scene(&self.device, &records, precision)?;
         let bytes = precision.bytes(cast_slice(&rows));

@@ -11,7 +11,7 @@ use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, DeviceKind, FloatWidth, GpuError,
     PipelineDescription, Recorder, Resource, arithmetic, shaders,
 };
-use crate::plan::Precision;
+use crate::plan::{Cuts, Precision};
 use crate::scene::Scene;
 
 impl Precision {
@@ -136,6 +136,7 @@ const EMPTY_ARRAY_BYTES: u64 = 7 * 32;
 pub(super) struct WhittedScene {
     kernel: Kernel,
     records: WhittedRecords,
+    cuts: Cuts,
     /// Of the whole picture.
     pub frame: WhittedFrame,
     /// Linear RGB.
@@ -151,6 +152,7 @@ impl WhittedScene {
         device: &Device,
         scene: &Scene,
         kernel: Kernel,
+        cuts: Cuts,
         max_depth: u32,
         [width, height]: [u32; 2],
     ) -> Result<Self, TracerError> {
@@ -165,8 +167,10 @@ impl WhittedScene {
             depth: max_depth,
             light_count: records.light_count,
             writes_remainder: 0,
+            least_weight: cuts.least_weight,
+            least_shadowed: cuts.least_shadowed,
         };
-        Ok(Self { kernel, records, frame, background: scene.background.as_vec3().to_array() })
+        Ok(Self { kernel, records, cuts, frame, background: scene.background.as_vec3().to_array() })
     }
 
     pub fn upload(&self, device: &Arc<Device>) -> Result<Vec<Resource>, GpuError> {
@@ -185,10 +189,12 @@ impl WhittedScene {
     }
 }
 
-/// The kernel, specialised for scenes with the same kinds of solids.
+/// The kernel, specialised for scenes with the same kinds of solids, and with highlights or without.
 pub(super) struct WhittedPipeline {
     pipeline: Arc<ComputePipeline>,
     kinds: [bool; 4],
+    kernel: Kernel,
+    highlights: bool,
     workgroup: [u32; 2],
 }
 
@@ -206,14 +212,27 @@ impl WhittedPipeline {
             },
             bindings: &bindings,
             push_constant_bytes: size_of::<WhittedFrame>() as u32,
-            constants: &[fma, spheres, boxes, cylinders, cones, workgroup[0], workgroup[1], loop_turns(device)],
+            constants: &[
+                fma,
+                spheres,
+                boxes,
+                cylinders,
+                cones,
+                workgroup[0],
+                workgroup[1],
+                loop_turns(device),
+                u32::from(scene.cuts.highlights),
+            ],
         };
-        Ok(Self { pipeline: ComputePipeline::new(device, &description)?, kinds: scene.kinds(), workgroup })
+        let pipeline = ComputePipeline::new(device, &description)?;
+        Ok(Self { pipeline, kinds: scene.kinds(), kernel: scene.kernel, highlights: scene.cuts.highlights, workgroup })
     }
 
     /// Whether it draws that scene too.
-    pub fn fits(&self, scene: &WhittedScene) -> bool {
-        self.kinds == scene.kinds()
+    pub fn fits(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
+        let &Self { kinds, kernel, highlights, workgroup: own_workgroup, .. } = self;
+        let of_scene = (scene.kinds(), scene.kernel, scene.cuts.highlights, workgroup);
+        (kinds, kernel, highlights, own_workgroup) == of_scene
     }
 
     /// The kernel reading a scene's arrays and writing into `picture`.

@@ -276,4 +276,8 @@ pub struct WhittedFrame {
     pub light_count: u32,
     /// Not 0: the picture is what each colour loses by rounding to `f32`.
     pub writes_remainder: u32,
+    /// [`Cuts::least_weight`](crate::plan::Cuts).
+    pub least_weight: f32,
+    /// [`Cuts::least_shadowed`](crate::plan::Cuts).
+    pub least_shadowed: f32,
 }

@@ -6,13 +6,13 @@ use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, Solid, SolidKind
 
 use crate::oracle::random::Random;
 
-/// The camera looks at the origin from 6 away; every second scene is a closed room around both.
+/// The camera looks at the origin from 6 away at solids of all kinds; every second scene is a closed room around both.
 pub fn random_scene(seed: u64) -> Scene {
     let mut random = Random(seed);
     let camera_place = 6.0 * random.unit_vector();
     let finish = if random.chance(0.2) { faint_gloss } else { any_gloss };
-    let mut primitives: Vec<Primitive> =
-        (0..2 + seed as usize % 4).map(|_| random_primitive(&mut random, finish)).collect();
+    let kinds = SolidKind::ALL.into_iter().cycle().take(4 + seed as usize % 3);
+    let mut primitives: Vec<Primitive> = kinds.map(|kind| random_primitive(&mut random, kind, finish)).collect();
     if seed.is_multiple_of(2) {
         let half_size = random.vector(|random| random.uniform(7.0, 12.0));
         let room = Solid::Box { center: DVec3::ZERO, half_size, rotation_degrees: DVec3::ZERO };
@@ -42,11 +42,11 @@ pub fn random_scene(seed: u64) -> Scene {
 /// A random specular.
 type Finish = fn(&mut Random) -> f64;
 
-fn random_primitive(random: &mut Random, finish: Finish) -> Primitive {
+fn random_primitive(random: &mut Random, kind: SolidKind, finish: Finish) -> Primitive {
     let place = 3.0 * random.vector(|random| random.uniform(-1.0, 1.0));
     let size = random.uniform(0.5, 1.5);
     let axis = random.unit_vector();
-    let solid = match SolidKind::ALL[random.uniform(0.0, 4.0) as usize] {
+    let solid = match kind {
         SolidKind::Sphere => Solid::Sphere { center: place, radius: size },
         SolidKind::Box => Solid::Box {
             center: place,
