@@ -1,10 +1,12 @@
 //! A low-level Vulkan ray tracer for simple solids with adjustable reflection.
 //!
-//! The modules stand in the order the data takes: a [`scene`] is read or edited, a [`tracer`] draws it on a device
-//! that [`gpu`] opened, or the [`reference`](mod@reference) on the CPU, the picture is a [`frame`], which is saved and
-//! [measured](measure); each [`command`] goes that way or a part of it.
+//! The modules stand in the order the data takes: a [`scene`] is read or edited, a [`plan`] tells what it requires, a
+//! [`tracer`] draws it on a device that [`gpu`] opened, or the [`reference`](mod@reference) on the CPU, the picture is a
+//! [`frame`], which is saved and [measured](measure); each [`command`] goes that way or a part of it.
 
 pub mod scene;
+
+pub mod plan;
 
 pub mod reference;
 

@@ -112,7 +112,8 @@ fn render_writes_the_picture_and_reports_it_as_json() {
     for output in ["x.png", "x.exr"] {
         let report = place.json(&render("four", output, &["--size", "160x69", "--json", "--repeat", "2"]));
         let documented =
-            "width height kernel precision device driver gpu_time_ns samples_ns validation_messages".split(' ');
+            "width height kernel precision error_bound device driver gpu_time_ns samples_ns validation_messages"
+                .split(' ');
         assert_eq!(keys(&report), documented.collect());
         assert_eq!((&report["width"], &report["height"]), (&160.into(), &69.into()));
         assert_eq!((&report["kernel"], &report["precision"]), (&"whitted".into(), &"f32".into()));
@@ -310,7 +311,7 @@ fn the_environment_chooses_the_device_and_the_option_overrules_it() {
 #[test]
 fn wrong_arguments_are_refused_by_name() {
     let place = Place::new();
-    let wrong: [(&[&str], &str); 15] = [
+    let wrong: [(&[&str], &str); 17] = [
         (&["--size", "0x5"], "--size"),
         (&["--size", "16385x1"], "--size"),
         (&["--size", "12"], "--size"),
@@ -321,6 +322,8 @@ fn wrong_arguments_are_refused_by_name() {
         (&["--repeat", "many"], "--repeat"),
         (&["--max-depth", "0"], "--max-depth"),
         (&["--max-depth", "1001"], "--max-depth"),
+        (&["--error", "1/0"], "--error"),
+        (&["--error", "less"], "--error"),
         (&["--kernel", "none"], "--kernel"),
         (&["--precision", "f16"], "--precision"),
         (&["--unknown"], "--unknown"),
@@ -448,7 +451,9 @@ fn pipeline_caches(cache_home: &Path) -> Vec<PathBuf> {
 #[test]
 fn a_reader_that_went_away_is_no_panic() {
     let place = Place::new();
-    for arguments in [&["gallery"][..], &["devices", "--json"], &["--help"], &render("four", "x.png", SMALL)] {
+    for arguments in
+        [&["gallery"][..], &["devices", "--json"], &["plan", "four"], &["--help"], &render("four", "x.png", SMALL)]
+    {
         let (reader, writer) = std::io::pipe().unwrap();
         drop(reader);
         let run = Run::of(place.command(arguments).stdout(writer).stderr(Stdio::piped()).output().unwrap());
@@ -464,8 +469,9 @@ fn a_reader_that_went_away_is_no_panic() {
 fn a_full_disk_under_the_output_is_told_in_a_line() {
     let place = Place::new();
     place.json(&render("four", "x.png", &["--size", "16x7", "--json"]));
-    let commands: [&[&str]; 5] = [
+    let commands: [&[&str]; 6] = [
         &["gallery"],
+        &["plan", "four"],
         &["devices"],
         &["devices", "--json"],
         &["compare", "x.png", "x.png"],
@@ -526,6 +532,79 @@ fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
         assert!(start.elapsed() < Duration::from_secs(60), "waited a minute until {what}");
         std::thread::sleep(Duration::from_millis(10));
     }
+}
+
+#[test]
+fn plan_tells_what_runs_what_is_left_out_and_why() {
+    let place = Place::new();
+    let report = place.json(&["plan", "corridor", "--error", "1/510", "--size", "64x28", "--json"]);
+    let documented = ["bound", "bounds", "cuts", "decisions", "device", "error", "height", "scene", "width"];
+    assert_eq!(keys(&report), documented.into());
+    assert_eq!((&report["scene"], &report["width"], &report["height"]), (&"corridor".into(), &64.into(), &28.into()));
+    let (error, bound) = (report["error"].as_f64().unwrap(), report["bound"].as_f64().unwrap());
+    assert!(error == 1.0 / 510.0 && bound > 0.0 && bound <= error, "{report}");
+    let decisions = report["decisions"].as_array().unwrap();
+    let about: Vec<_> = decisions.iter().map(|decision| decision["what"].as_str().unwrap()).collect();
+    for what in ["spheres", "boxes", "lights", "shadow rays", "highlights", "generations", "precision", "error"] {
+        assert!(about.contains(&what), "{what} is not in {about:?}");
+    }
+    for decision in decisions {
+        assert_eq!(keys(decision), ["choice", "saves", "what", "why"].into());
+        assert!(decision["why"].as_str().is_some_and(|why| !why.is_empty()), "{decision}");
+    }
+
+    let run = place.run(&["plan", "corridor", "--error", "0.002"]);
+    assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
+    assert_eq!(run.stdout.lines().count(), 1 + decisions.len());
+    assert!(run.stdout.starts_with("corridor at 1621x701 on "), "{}", run.stdout);
+    assert!(about.iter().all(|what| run.stdout.contains(what)) && run.stdout.contains("; saves "), "{}", run.stdout);
+}
+
+#[test]
+fn render_tells_the_bound_on_what_an_allowed_error_changed() {
+    let place = Place::new();
+    let within = |error| place.json(&render("several", "x.exr", &["--size", "16x7", "--json", "--error", error]));
+    assert_eq!(within("0")["error_bound"], 0.0);
+    let bound = within("1/50")["error_bound"].as_f64().unwrap();
+    assert!(bound > 0.0 && bound <= 1.0 / 50.0, "{bound}");
+    assert_eq!(within("1e-4")["precision"], "f64", "f32 is not known to keep that");
+    let run = place.run(&render("several", "x.exr", &["--size", "16x7", "--error", "1/50"]));
+    assert!(run.stdout.contains("at most ") && run.stdout.lines().count() == 1, "{}", run.stdout);
+    for kernel in ["course", "plain", "reference"] {
+        let arguments = [SMALL, &["--kernel", kernel, "--error", "1/50"]].concat();
+        place.assert_refused(&render("four", "y.exr", &arguments), 2, &["whitted", "--error"]);
+    }
+}
+
+#[test]
+fn plan_needs_no_device() {
+    let place = Place::new();
+    let mut command = place.command(&["plan", "four", "--json"]);
+    command.env("VK_DRIVER_FILES", "/nonexistent").env("VK_ICD_FILENAMES", "/nonexistent");
+    let without_driver = Run::of(command.output().unwrap());
+    let unasked = place.run(&["plan", "four", "--json", "--no-device"]);
+    for run in [&without_driver, &unasked] {
+        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{run:?}");
+        let report: Value = serde_json::from_str(&run.stdout).unwrap();
+        assert_eq!((&report["device"], &report["bound"]), (&Value::Null, &0.0.into()));
+    }
+    assert_eq!(without_driver.stdout, unasked.stdout);
+    place.assert_refused(&["plan", "four", "--precision", "f64", "--no-device"], 2, &["f64", "shaderFloat64"]);
+}
+
+#[test]
+fn plan_refuses_wrong_wishes() {
+    let place = Place::new();
+    for wrong in ["1/0", "x", "nan", "inf", "1/-2"] {
+        let run = place.run(&["plan", "four", "--error", wrong]);
+        assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{wrong}");
+        assert!(run.stderr.contains("--error") && run.stderr.contains("1/510"), "{}", run.stderr);
+    }
+    for arguments in [&["--max-depth", "0"][..], &["--size", "0x1"], &["--precision", "f16"], &["--error"]] {
+        assert_eq!(place.run(&[&["plan", "four"], arguments].concat()).code, Some(2), "{arguments:?}");
+    }
+    place.assert_refused(&["plan", "no such scene"], 2, &["no such scene", "zerkalo gallery"]);
+    place.assert_refused(&["plan", "four", "--device", "nonsense"], 2, &["nonsense"]);
 }
 
 #[test]

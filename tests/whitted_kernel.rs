@@ -9,6 +9,7 @@ use common::{TestDevice, render};
 use glam::DVec3;
 use scenes::{light, material, mirror, mixed_scene, primitive, sphere};
 use zerkalo::frame::Frame;
+use zerkalo::plan::Cuts;
 use zerkalo::scene::{Camera, Light, Scene, Solid, gallery};
 use zerkalo::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
 
@@ -32,6 +33,29 @@ fn tiles_and_workgroups_change_no_bit() {
             let other = render(&device, &mixed_scene(), &Settings { max_tile_side, workgroup, ..usual.clone() });
             assert!(other == whole, "tiles of {max_tile_side}, workgroups of {workgroup:?}");
         }
+    }
+}
+
+#[test]
+fn a_tracer_that_takes_up_another_scene_draws_what_a_new_one_does() {
+    let device = TestDevice::open();
+    let first = settings(Precision::F32, 48, 32);
+    let mut tracer = Tracer::new(&device, &Scene::default(), &first).unwrap();
+    let showcase = gallery::scene("showcase").unwrap();
+    let cuts = Cuts { least_weight: 0.1, least_shadowed: 0.1, highlights: false, ..Cuts::NONE };
+    let course = Settings { kernel: Kernel::Course, ..first.clone() };
+    let of_scenes = [
+        (mixed_scene(), first.clone()),
+        (mixed_scene(), Settings { cuts, ..first.clone() }),
+        (showcase, Settings { kernel: Kernel::Whitted(Precision::F64), ..first.clone() }),
+        (gallery::scene("four").unwrap(), course),
+        (mixed_scene(), Settings { max_depth: Some(1), max_tile_side: 9, workgroup: [3, 5], ..first.clone() }),
+    ];
+    let mut frame = tracer.frame().unwrap();
+    for (scene, settings) in of_scenes {
+        tracer.take_up(&scene, &settings).unwrap();
+        tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())).unwrap();
+        assert!(frame == render(&device, &scene, &settings), "{settings:?}");
     }
 }
 

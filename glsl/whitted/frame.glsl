@@ -8,6 +8,8 @@ struct WhittedFrame {
     uint light_count;
     float reach;      // half of the largest coordinate of a solid or of a ray's origin
     uint writes_remainder; // not 0: what the colour loses by rounding to float, instead of the colour
+    float least_weight;    // a path ends as soon as it weighs no more than that; below 1
+    float least_shadowed;  // of light that is no more than that, times the path's weight, half counts, in shadow or not
 };
 layout(push_constant, std430) uniform Push { WhittedFrame frame; };
 

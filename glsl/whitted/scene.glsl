@@ -78,6 +78,11 @@ layout(constant_id = 9) const uint SPHERE_LEVELS = 0u;
 layout(constant_id = 10) const uint BOX_LEVELS = 0u;
 layout(constant_id = 11) const uint CYLINDER_LEVELS = 0u;
 layout(constant_id = 12) const uint CONE_LEVELS = 0u;
+// What there is not, or the plan has left out.
+layout(constant_id = 13) const bool HAS_HIGHLIGHTS = true;
+layout(constant_id = 14) const bool HAS_LIGHTS = true;
+layout(constant_id = 15) const bool HAS_SHADOWS = true;
+layout(constant_id = 16) const bool HAS_REFLECTIONS = true;
 
 // Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 turns of all of them together: there
 // the search ends before that, and says so.

@@ -24,8 +24,11 @@ Real3 towards(Light light, Real3 point, out Real light_distance) {
 
 // What of a light that nothing hides comes back along the ray, from a surface at this cosine to it.
 Real3 sent_back(Material material, Real3 normal, Real3 ray_direction, Real3 light_direction, Real cosine, Light light) {
-    Real3 mirrored_light = reflected(-light_direction, normal);
-    Real highlight = fifth_power(max(-dot(mirrored_light, ray_direction), Real(0.0)));
+    Real highlight = 0.0;
+    if (HAS_HIGHLIGHTS) {
+        Real3 mirrored_light = reflected(-light_direction, normal);
+        highlight = fifth_power(max(-dot(mirrored_light, ray_direction), Real(0.0)));
+    }
     Real3 received = (material.diffuse * cosine) * material.color + material.specular * highlight;
     return received * light.intensity;
 }

@@ -60,7 +60,8 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
     Real3 emitted, ray_direction = ray.direction;
     uint light_index = 0u;
     Light lamp;
-    Real light_distance, cosine;
+    Real light_distance;
+    Real3 sent; // back along the ray, of what the lamp gives
     bool is_hit = false;
 
     // Where the search stands.
@@ -104,8 +105,7 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
         if (purpose != ENDED && !goes_on) {
             bool is_light = purpose == TO_LIGHT;
             bool is_last = !is_light && (!is_hit || (generation == 0u && ball_t < nearest.t));
-            Real3 more = sent_back(matter, nearest.normal, ray_direction, ray.direction, cosine, lamp);
-            if (is_light && !is_hidden) emitted = limited(emitted + more);
+            if (is_light && !is_hidden) emitted = limited(emitted + sent);
             if (is_last) {
                 Real3 seen = generation == 0u && ball != NOTHING ? light(ball).intensity : background;
                 color = limited(color + weight * seen);
@@ -115,20 +115,27 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
                 emitted = matter.ambient * matter.color;
                 ray_direction = ray.direction;
             }
-            light_index = is_light ? light_index + 1u : 0u;
 
-            // On to the next light on this side of the surface, or to the reflection.
-            bool is_lit;
-            Real3 light_direction;
-            for (;;) {
-                turns++;
-                lamp = light(light_index);
-                light_direction = towards(lamp, nearest.point, light_distance);
-                cosine = dot(nearest.normal, light_direction);
-                // A light at the hit point gives nothing.
-                is_lit = light_index < frame.light_count && light_distance > 0.0 && cosine > 0.0;
-                light_index += is_lit ? 0u : 1u;
-                if (!(!is_lit && light_index < frame.light_count)) break;
+            // On to the next light that a shadow ray is worth, or to the reflection.
+            light_index = is_light ? light_index + 1u : 0u;
+            bool is_lit = false;
+            Real3 light_direction = Real3(0.0);
+            if (HAS_LIGHTS) {
+                for (;;) {
+                    turns++;
+                    lamp = light(light_index);
+                    light_direction = towards(lamp, nearest.point, light_distance);
+                    Real cosine = dot(nearest.normal, light_direction);
+                    // A light at the hit point gives nothing.
+                    bool shines = !is_last && light_index < frame.light_count && light_distance > 0.0 && cosine > 0.0;
+                    sent = sent_back(matter, nearest.normal, ray_direction, light_direction, cosine, lamp);
+                    // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
+                    bool is_faint = weight * largest_component(sent) <= Real(frame.least_shadowed);
+                    is_lit = HAS_SHADOWS && shines && !is_faint;
+                    if (shines && !is_lit) emitted = limited(emitted + (is_faint ? Real3(0.5) * sent : sent));
+                    light_index += is_lit ? 0u : 1u;
+                    if (is_lit || light_index >= frame.light_count) break;
+                }
             }
 
             is_own_due = departure.inside;
@@ -140,14 +147,17 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
                 limit = up_to(light_distance);
             } else {
                 if (!is_last) color = limited(color + weight * emitted);
-                weight *= matter.specular;
-                generation++;
-                ray = Ray(nearest.point, reflected(ray_direction, nearest.normal));
-                purpose = weight != 0.0 && generation < frame.depth ? TO_NEAREST : ENDED;
-                limit = FAR;
-                is_hit = false;
+                purpose = ENDED;
+                if (HAS_REFLECTIONS) {
+                    weight *= matter.specular;
+                    generation++;
+                    bool goes_further = weight > Real(frame.least_weight) && generation < frame.depth && !is_last;
+                    purpose = goes_further ? TO_NEAREST : ENDED;
+                    ray = Ray(nearest.point, reflected(ray_direction, nearest.normal));
+                    limit = FAR;
+                    is_hit = false;
+                }
             }
-            if (is_last) purpose = ENDED;
         }
         if (!(any_of_packet(purpose != ENDED) && turns < LOOP_TURNS)) break;
     }

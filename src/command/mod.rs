@@ -5,6 +5,7 @@ pub mod devices;
 pub mod fps;
 pub mod gallery;
 pub mod interrupt;
+pub mod plan;
 pub mod render;
 pub mod stability;
 pub mod view;
@@ -19,6 +20,7 @@ use serde::Serialize;
 use crate::frame::FrameError;
 use crate::gpu::{GpuError, Message};
 use crate::measure::fps_table::FpsTableError;
+use crate::plan::PlanError;
 use crate::scene::{Scene, SceneError, gallery as ready};
 use crate::tracer::TracerError;
 use crate::viewer::ViewerError;
@@ -27,6 +29,7 @@ use crate::viewer::ViewerError;
 pub enum Command {
     View(view::ViewArgs),
     Render(render::RenderArgs),
+    Plan(plan::PlanArgs),
     Compare(compare::CompareArgs),
     Stability(stability::StabilityArgs),
     Fps(fps::FpsArgs),
@@ -39,6 +42,7 @@ impl Command {
         match self {
             Self::View(args) => view::run(args),
             Self::Render(args) => render::run(args),
+            Self::Plan(args) => plan::run(args),
             Self::Compare(args) => Ok(compare::run(args)?),
             Self::Stability(args) => stability::run(args),
             Self::Fps(args) => fps::run(args),
@@ -102,6 +106,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.downcast_ref().is_some_and(TracerError::is_input_error)
             || cause.downcast_ref().is_some_and(ViewerError::is_input_error)
             || cause.downcast_ref().is_some_and(FpsTableError::is_input_error)
+            || cause.is::<PlanError>()
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });
     if matches!(error.downcast_ref(), Some(TracerError::Stopped)) || error.is::<fps::Stopped>() {

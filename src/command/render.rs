@@ -4,15 +4,18 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use anyhow::Result;
+use clap::builder::RangedI64ValueParser;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::interrupt::Listener;
+use super::plan::{limits_of, parse_error};
 use super::{DeviceArgs, print_json, refuse_messages, scene_named};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Message, Validation};
 use crate::measure::median;
+use crate::plan::{Plan, Wishes};
 use crate::reference::{self, RenderError};
 use crate::scene::{DEPTH_LIMIT, Scene};
 use crate::tracer::{self, Settings, Tracer, TracerError};
@@ -56,12 +59,15 @@ pub struct RenderArgs {
     /// Which tracer draws
     #[arg(long, value_enum, default_value_t)]
     pub kernel: Kernel,
-    /// What the whitted kernel calculates in [default: f32]
+    /// What the whitted kernel calculates in [default: f32, where it is known to keep the error]
     #[arg(long, value_enum)]
     pub precision: Option<Precision>,
     /// Generations of a ray, in place of the scene's
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT)))]
+    #[arg(long, value_name = "N", value_parser = parse_depth())]
     pub max_depth: Option<u32>,
+    /// Largest change of any linear channel by what the whitted kernel leaves out, such as 0.002 or 1/510; 0 is exact
+    #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error)]
+    pub error: f64,
     #[command(flatten)]
     pub device: DeviceArgs,
     /// Render once to warm up, then N times, and report the median GPU time
@@ -73,6 +79,27 @@ pub struct RenderArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
+}
+
+impl Precision {
+    /// As the library calls it.
+    pub(super) fn in_library(self) -> tracer::Precision {
+        match self {
+            Self::F32 => tracer::Precision::F32,
+            Self::F64 => tracer::Precision::F64,
+        }
+    }
+
+    fn of_library(precision: tracer::Precision) -> Self {
+        match precision {
+            tracer::Precision::F32 => Self::F32,
+            tracer::Precision::F64 => Self::F64,
+        }
+    }
+}
+
+pub(super) fn parse_depth() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT))
 }
 
 pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
@@ -91,6 +118,8 @@ struct Report<'a> {
     kernel: Kernel,
     /// What the kernel calculated in.
     precision: Precision,
+    /// No linear channel is changed more by what was left out.
+    error_bound: f64,
     device: &'a str,
     driver: &'a str,
     /// Median of `samples_ns`; null where there is none: no timestamps, or no Vulkan device.
@@ -103,6 +132,8 @@ struct Report<'a> {
 /// A picture, what drew it, and what is to be told of that.
 struct Rendered {
     frame: Frame,
+    precision: Precision,
+    error_bound: f64,
     device: String,
     driver: String,
     samples_ns: Vec<u64>,
@@ -114,6 +145,11 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     Frame::check_output_path(&args.output)?;
     let scene = scene_named(&args.scene)?;
     check_precision(args)?;
+    if args.error > 0.0 && args.kernel != Kernel::Whitted {
+        return Err(
+            TracerError::Refused("only the whitted kernel leaves anything out: --error is for it".to_owned()).into()
+        );
+    }
     let rendered = match args.kernel {
         Kernel::Course | Kernel::Plain | Kernel::Whitted => on_device(args, &scene)?,
         Kernel::Reference => on_cpu(args, scene)?,
@@ -139,23 +175,19 @@ fn check_precision(args: &RenderArgs) -> Result<(), TracerError> {
     }
 }
 
-/// As given, else the kernel's own.
-fn precision(args: &RenderArgs) -> Precision {
-    let own = if args.kernel == Kernel::Reference { Precision::F64 } else { Precision::F32 };
-    args.precision.unwrap_or(own)
-}
-
 fn on_device(args: &RenderArgs, scene: &Scene) -> Result<Rendered> {
     let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
     let device = Device::open(args.device.device.as_deref(), validation)?;
     let DeviceDescription { name, driver, .. } = device.description().clone();
     let messages = device.messages().clone();
 
-    let mut tracer = Tracer::new(&device, scene, &settings(args))?;
+    let (settings, error_bound) = settings(args, scene, device.description())?;
+    let mut tracer = Tracer::new(&device, scene, &settings)?;
     let (frame, samples_ns) = render(&mut tracer, args.repeat)?;
     // Destroyed before the messages are counted: the layers check that too.
     drop((tracer, device));
-    Ok(Rendered { frame, device: name, driver, samples_ns, messages: messages.to_vec() })
+    let precision = Precision::of_library(settings.kernel.precision());
+    Ok(Rendered { frame, precision, error_bound, device: name, driver, samples_ns, messages: messages.to_vec() })
 }
 
 fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
@@ -180,17 +212,31 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
     })?;
     frame.pixels_mut().copy_from_slice(&image.to_f32());
     let driver = concat!("zerkalo ", env!("CARGO_PKG_VERSION"), ", f64").to_owned();
-    Ok(Rendered { frame, device: "CPU".to_owned(), driver, samples_ns: Vec::new(), messages: Vec::new() })
+    Ok(Rendered {
+        frame,
+        precision: Precision::F64,
+        error_bound: 0.0,
+        device: "CPU".to_owned(),
+        driver,
+        samples_ns: Vec::new(),
+        messages: Vec::new(),
+    })
 }
 
-fn settings(args: &RenderArgs) -> Settings {
-    let kernel = match (args.kernel, precision(args)) {
-        (Kernel::Course | Kernel::Reference, _) => tracer::Kernel::Course,
-        (Kernel::Plain, _) => tracer::Kernel::Plain,
-        (Kernel::Whitted, Precision::F32) => tracer::Kernel::Whitted(tracer::Precision::F32),
-        (Kernel::Whitted, Precision::F64) => tracer::Kernel::Whitted(tracer::Precision::F64),
-    };
-    Settings { max_depth: args.max_depth, kernel, ..Settings::new(args.size.0, args.size.1) }
+/// With the bound on the change by what is left out.
+fn settings(args: &RenderArgs, scene: &Scene, device: &DeviceDescription) -> Result<(Settings, f64)> {
+    let (width, height) = args.size;
+    let settings = Settings { max_depth: args.max_depth, ..Settings::new(width, height) };
+    Ok(match args.kernel {
+        Kernel::Course | Kernel::Reference => (settings, 0.0),
+        Kernel::Plain => (Settings { kernel: tracer::Kernel::Plain, ..settings }, 0.0),
+        Kernel::Whitted => {
+            let precision = args.precision.map(Precision::in_library);
+            let wishes = Wishes { precision, max_depth: args.max_depth, error: args.error, width, height };
+            let plan = Plan::for_scene(scene, &wishes, &limits_of(device))?;
+            (Settings::planned(&plan, width, height), plan.bounds.total())
+        }
+    })
 }
 
 /// The frame and the GPU time of every measured render.
@@ -225,7 +271,7 @@ fn progress_bar(pixels: u64) -> ProgressBar {
 }
 
 fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
-    let Rendered { device, driver, samples_ns, messages, .. } = rendered;
+    let Rendered { precision, error_bound, device, driver, samples_ns, messages, .. } = rendered;
     let gpu_time_ns = median(samples_ns);
     let (width, height) = args.size;
     if args.json {
@@ -233,7 +279,8 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
             width,
             height,
             kernel: args.kernel,
-            precision: precision(args),
+            precision: *precision,
+            error_bound: *error_bound,
             device,
             driver,
             gpu_time_ns,
@@ -248,7 +295,8 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
         None => ", with the driver's warm-up".to_owned(),
     };
     let output = args.output.display().to_string();
-    super::print_line(&format!("wrote {} ({width}x{height}, {device}, {time}{of})", output.escape_debug()))
+    let bound = if *error_bound > 0.0 { format!(", at most {error_bound:.3e} off") } else { String::new() };
+    super::print_line(&format!("wrote {} ({width}x{height}, {device}, {time}{of}{bound})", output.escape_debug()))
 }
 
 #[cfg(test)]

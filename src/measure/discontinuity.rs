@@ -67,10 +67,11 @@ impl Difference {
 /// The release bars of NUMERICS.md: largest difference of a channel off discontinuities, and the share of discontinuity
 /// pixels that may differ by more than that.
 pub fn bars(precision: Precision) -> (f64, f64) {
-    match precision {
-        Precision::F32 => (1.0 / 510.0, 1e-3),
-        Precision::F64 => (1e-9, 1e-6),
-    }
+    let share = match precision {
+        Precision::F32 => 1e-3,
+        Precision::F64 => 1e-6,
+    };
+    (precision.rounding_bar(), share)
 }
 
 /// Where the reference's path differs from a neighbour's.

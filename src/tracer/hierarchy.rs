@@ -6,6 +6,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::plan::Structure;
+
 /// A box around a solid or several.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Bounds {
@@ -27,20 +29,14 @@ impl Bounds {
 }
 
 /// Boxes in a group, and solids in a box of level 1.
-pub const GROUP: usize = 8;
+pub const GROUP: usize = Structure::GROUP;
 
-/// The top level has no more boxes than this: the search looks at them all.
-const TOP: usize = 32;
-
-/// Levels over so many solids. Up to [`TOP`] of them the search does without: it looks at all of them.
+/// Levels over so many solids of a kind.
 pub fn level_count(solids: usize) -> usize {
-    let mut count = solids;
-    let mut levels = 0;
-    while count > TOP {
-        count = count.div_ceil(GROUP);
-        levels += 1;
+    match Structure::over(solids) {
+        Structure::None => 0,
+        Structure::Hierarchy { levels } => levels as usize,
     }
-    levels
 }
 
 /// One level over the solids.

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use super::chunks::Part;
 use super::course::{CourseKernel, CourseScene, WORKGROUP};
 use super::records::PrimitiveRecords;
-use super::whitted::{Precision, WhittedPipeline, WhittedScene};
+use super::whitted::{WhittedPipeline, WhittedScene};
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Shader};
+use crate::plan::{Cuts, Precision};
 use crate::scene::{DEPTH_LIMIT, Scene};
 
 pub(super) enum LiveKernel {
@@ -67,7 +68,7 @@ impl LiveKernel {
         Ok(match self {
             Self::Course(_) => State::Course(Box::new(CourseScene::new(scene, scene.max_depth, size)?)),
             Self::Whitted(LiveWhitted { kernel, device, .. }) => {
-                State::Whitted(Box::new(WhittedScene::new(device, scene, *kernel, scene.max_depth, size)?))
+                State::Whitted(Box::new(WhittedScene::new(device, scene, *kernel, Cuts::NONE, scene.max_depth, size)?))
             }
         })
     }
@@ -110,7 +111,7 @@ impl LiveWhitted {
         let arrays = scene.upload(&self.device)?;
         let last = self.begun.take();
         let (pipeline, dropped) = match last {
-            Some((pipeline, arrays)) if pipeline.fits(scene) => (pipeline, arrays),
+            Some((pipeline, arrays)) if pipeline.fits(scene, WORKGROUP) => (pipeline, arrays),
             last => {
                 let dropped = last.map(|(_, arrays)| arrays).unwrap_or_default();
                 (WhittedPipeline::new(&self.device, scene, WORKGROUP)?, dropped)

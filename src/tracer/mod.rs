@@ -24,11 +24,13 @@ pub use records::{
     BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MaterialRecord, PrimitiveRecords, SphereRecord,
 };
 
-pub use whitted::{Precision, Requirements, check_precision, scene_bindings, upload_scene};
+pub use crate::plan::Precision;
+pub use whitted::{Requirements, check_precision, scene_bindings, upload_scene};
 pub use whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};
 use crate::gpu::{BindingSet, Buffer, BufferKind, Commands, Device, GpuError, Resource, StorageImage, Timer, Use};
+use crate::plan::{Cuts, Plan, tile_side};
 use crate::scene::Scene;
 use chunks::Part;
 use scene_kernel::SceneKernel;
@@ -99,12 +101,35 @@ pub struct Settings {
     /// Pixels of a workgroup along x and y.
     pub workgroup: [u32; 2],
     pub kernel: Kernel,
+    /// What is left out; the course kernel leaves out nothing.
+    pub cuts: Cuts,
 }
 
 impl Settings {
-    /// By the course kernel.
+    /// By the course kernel, exactly.
     pub fn new(width: u32, height: u32) -> Self {
-        Self { width, height, max_depth: None, max_tile_side: 1024, workgroup: WORKGROUP, kernel: Kernel::Course }
+        Self {
+            width,
+            height,
+            max_depth: None,
+            max_tile_side: 1024,
+            workgroup: WORKGROUP,
+            kernel: Kernel::Course,
+            cuts: Cuts::NONE,
+        }
+    }
+
+    /// By the accurate kernel, as a plan has it.
+    pub fn planned(plan: &Plan, width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            max_depth: Some(plan.generations.choice),
+            max_tile_side: plan.tile_side.choice,
+            workgroup: plan.workgroup.choice,
+            kernel: Kernel::Whitted(plan.precision.choice),
+            cuts: plan.cuts,
+        }
     }
 }
 
@@ -113,6 +138,8 @@ pub struct Tracer {
     kernel: SceneKernel,
     set: Arc<BindingSet>,
     tiles: Vec<Tile>,
+    /// Of the largest tile that `picture` holds, pixels.
+    tile_side: u32,
     width: u32,
     height: u32,
     picture: Resource,
@@ -143,6 +170,7 @@ impl Tracer {
             set: kernel.bind(&picture)?,
             kernel,
             tiles: tiles(width, height, tile_side),
+            tile_side,
             width,
             height,
             picture,
@@ -152,6 +180,25 @@ impl Tracer {
             commands: Commands::new(device, "trace")?,
             device: device.clone(),
         })
+    }
+
+    /// Another scene, drawn at the same size; the pipeline is kept where it fits.
+    ///
+    /// # Errors
+    /// As of [`Tracer::new`].
+    ///
+    /// # Panics
+    /// The settings have another size.
+    pub fn take_up(&mut self, scene: &Scene, settings: &Settings) -> Result<(), TracerError> {
+        let &Settings { width, height, max_depth, max_tile_side, .. } = settings;
+        assert_eq!((width, height), (self.width, self.height), "the settings are of another size");
+        let max_depth = max_depth.unwrap_or(scene.max_depth);
+        self.kernel.take_up(&self.device, scene, settings, max_depth)?;
+        self.set = self.kernel.bind(&self.picture)?;
+        let max_tile_side = max_tile_side.clamp(1, self.tile_side);
+        let tile_side = tile_side(max_tile_side, scene.primitives.len(), scene.lights.len(), max_depth);
+        self.tiles = tiles(width, height, tile_side);
+        Ok(())
     }
 
     /// An empty frame of the right size for [`Tracer::render`].
@@ -239,31 +286,5 @@ impl Tracer {
             })
         })?;
         timer.as_deref().map(Timer::elapsed_ns).transpose()
-    }
-}
-
-/// Side of a tile, pixels: at most `max`, and so small that one submission makes no more than about 2²⁸ intersection
-/// tests, if that leaves it 64 pixels. At worst every ray goes through all generations, with a shadow ray a light each.
-/// 2²⁸ tests take lavapipe on two cores a second or two: so long may Ctrl-C and the progress bar wait; on a small GPU
-/// they stay far below the seconds after which a driver takes it for hung.
-fn tile_side(max: u32, primitives: usize, lights: usize, max_depth: u32) -> u32 {
-    const TESTS: u64 = 1 << 28;
-    let tests_per_pixel = u64::from(max_depth) * (1 + lights as u64) * (primitives as u64 + 1);
-    let side = (TESTS / tests_per_pixel).isqrt() as u32;
-    // A multiple of the workgroup's side leaves no invocations idle at the tile's edge.
-    max.min((side / 8 * 8).max(64))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::tile_side;
-
-    #[test]
-    fn heavy_scenes_take_small_tiles_and_light_ones_the_largest() {
-        assert_eq!(tile_side(1024, 0, 1, 1), 1024);
-        assert_eq!(tile_side(1024, 8, 1, 8), 1024);
-        assert_eq!(tile_side(1024, 100, 1, 20), 256);
-        assert_eq!(tile_side(1024, 100, 1, 1000), 64);
-        assert_eq!(tile_side(7, 100, 1, 1000), 7);
     }
 }

@@ -5,8 +5,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::hierarchy::{Bounds, GROUP, Level};
-use super::whitted::Precision;
 use super::whitted_records::{KernelFrame, row, unit};
+use crate::plan::Precision;
 use crate::scene::{Solid, SolidKind, world_from_box};
 
 /// A row of the texel buffer.

@@ -7,13 +7,14 @@ use glam::DVec3;
 
 use super::course::upload;
 use super::records::{FrameRecord, PrimitiveRecords};
-use super::whitted::{Precision, Requirements, scene_bindings, upload_scene};
+use super::whitted::{Requirements, scene_bindings, upload_scene};
 use super::whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError, check_precision};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, Device, PipelineDescription, Resource, Use,
     shaders,
 };
+use crate::plan::Precision;
 use crate::reference::{Face, Side};
 use crate::scene::{Light, Primitive, Scene, Solid};
 
@@ -91,7 +92,7 @@ impl Probe {
             Kernel::Plain | Kernel::Whitted(_) => {
                 let precision = kernel.precision();
                 check_precision(device, precision)?;
-                let requirements = Requirements { kinds: [true; 4], levels: [0; 4], are_boxes_upright: false };
+                let requirements = Requirements { kinds: [true; 4], ..Requirements::default() };
                 let mut bindings = vec![BindingKind::Records];
                 bindings.extend(scene_bindings(precision));
                 bindings.push(BindingKind::Storage);
@@ -140,6 +141,8 @@ impl Probe {
             light_count: 0,
             reach: kernel_frame.reach,
             writes_remainder: 0,
+            least_weight: 0.0,
+            least_shadowed: 0.0,
         };
         let scene = upload_scene(&self.device, &records, precision)?;
         let bytes = precision.bytes(cast_slice(&rows));

@@ -21,7 +21,7 @@ impl SceneKernel {
     /// # Errors
     /// The kernel cannot take the scene on this device.
     pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings, max_depth: u32) -> Result<Self, TracerError> {
-        let &Settings { width, height, workgroup, .. } = settings;
+        let &Settings { width, height, workgroup, cuts, .. } = settings;
         Ok(match settings.kernel {
             Kernel::Course => {
                 let CourseScene { frame, primitives } = CourseScene::new(scene, max_depth, [width, height])?;
@@ -29,11 +29,37 @@ impl SceneKernel {
                 Self::Course { kernel, frame: Box::new(frame) }
             }
             Kernel::Plain | Kernel::Whitted(_) => {
-                let scene = WhittedScene::new(device, scene, settings.kernel, max_depth, [width, height])?;
+                let scene = WhittedScene::new(device, scene, settings.kernel, cuts, max_depth, [width, height])?;
                 let pipeline = WhittedPipeline::new(device, &scene, workgroup)?;
                 Self::Whitted { pipeline, arrays: scene.upload(device)?, frame: scene.frame }
             }
         })
+    }
+
+    /// Another scene in the place of the last one. The pipeline stays where it fits.
+    ///
+    /// # Errors
+    /// As of [`SceneKernel::new`]; the last scene stays.
+    pub fn take_up(
+        &mut self,
+        device: &Arc<Device>,
+        scene: &Scene,
+        settings: &Settings,
+        max_depth: u32,
+    ) -> Result<(), TracerError> {
+        let &Settings { width, height, kernel, workgroup, cuts, .. } = settings;
+        match self {
+            Self::Whitted { pipeline, arrays, frame } if kernel != Kernel::Course => {
+                let scene = WhittedScene::new(device, scene, kernel, cuts, max_depth, [width, height])?;
+                let new_arrays = scene.upload(device)?;
+                if !pipeline.fits(&scene, workgroup) {
+                    *pipeline = WhittedPipeline::new(device, &scene, workgroup)?;
+                }
+                (*arrays, *frame) = (new_arrays, scene.frame);
+            }
+            Self::Whitted { .. } | Self::Course { .. } => *self = Self::new(device, scene, settings, max_depth)?,
+        }
+        Ok(())
     }
 
     /// The kernel writing into `picture`.

@@ -11,25 +11,10 @@ use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, DeviceKind, FloatWidth, GpuError,
     PipelineDescription, Recorder, Resource, Texel, arithmetic, shaders,
 };
+use crate::plan::{Cuts, Precision};
 use crate::scene::Scene;
 
-/// What the kernel calculates in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Precision {
-    #[default]
-    F32,
-    F64,
-}
-
 impl Precision {
-    /// Half the distance from 1 to the next number.
-    pub fn unit_roundoff(self) -> f64 {
-        match self {
-            Self::F32 => f64::from(f32::EPSILON) / 2.0,
-            Self::F64 => f64::EPSILON / 2.0,
-        }
-    }
-
     /// Of a solid, in kernel lengths: the rounding errors of its squares are still normal numbers.
     pub(super) fn smallest_length(self) -> f64 {
         match self {
@@ -72,14 +57,6 @@ impl Precision {
             Self::F64 => bytemuck::cast_slice(rows).to_vec(),
         }
     }
-
-    /// The word of the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::F32 => "f32",
-            Self::F64 => "f64",
-        }
-    }
 }
 
 /// Bindings 1 to 7 of `glsl/whitted/scene.glsl`.
@@ -90,21 +67,29 @@ pub fn scene_bindings(precision: Precision) -> [BindingKind; 7] {
 }
 
 /// What the kernel is made for, apart from its precision and its workgroup.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Requirements {
     /// Which kinds there are: spheres, boxes, cylinders, cones.
     pub kinds: [bool; 4],
     /// Of boxes over the solids of each kind.
     pub levels: [u32; 4],
     pub are_boxes_upright: bool,
+    pub highlights: bool,
+    pub lights: bool,
+    pub shadows: bool,
+    pub reflections: bool,
 }
 
 impl Requirements {
-    pub fn of(records: &WhittedRecords) -> Self {
+    pub fn of(records: &WhittedRecords, cuts: &Cuts, max_depth: u32) -> Self {
         Self {
             kinds: records.counts.map(|count| count > 0),
             levels: records.levels,
             are_boxes_upright: records.are_boxes_upright,
+            highlights: cuts.highlights,
+            lights: cuts.lights && records.light_count > 0,
+            shadows: cuts.shadows,
+            reflections: cuts.reflections && max_depth > 1,
         }
     }
 
@@ -117,7 +102,7 @@ impl Requirements {
         device: &Arc<Device>,
         precision: Precision,
         [width, height]: [u32; 2],
-    ) -> Result<[u32; 13], GpuError> {
+    ) -> Result<[u32; 17], GpuError> {
         let float_width = match precision {
             Precision::F32 => FloatWidth::F32,
             Precision::F64 => FloatWidth::F64,
@@ -125,6 +110,7 @@ impl Requirements {
         let has_fused_fma = u32::from(arithmetic(device, float_width)?.fused_fma);
         let [spheres, boxes, cylinders, cones] = self.kinds.map(u32::from);
         let [sphere_levels, box_levels, cylinder_levels, cone_levels] = self.levels;
+        let &Self { highlights, lights, shadows, reflections, .. } = self;
         Ok([
             has_fused_fma,
             spheres,
@@ -139,6 +125,10 @@ impl Requirements {
             box_levels,
             cylinder_levels,
             cone_levels,
+            u32::from(highlights),
+            u32::from(lights),
+            u32::from(shadows),
+            u32::from(reflections),
         ])
     }
 }
@@ -220,6 +210,7 @@ const EMPTY_ARRAY_BYTES: u64 = 7 * 32;
 pub(super) struct WhittedScene {
     kernel: Kernel,
     records: WhittedRecords,
+    requirements: Requirements,
     /// Of the whole picture.
     pub frame: WhittedFrame,
     /// Linear RGB.
@@ -235,6 +226,7 @@ impl WhittedScene {
         device: &Device,
         scene: &Scene,
         kernel: Kernel,
+        cuts: Cuts,
         max_depth: u32,
         [width, height]: [u32; 2],
     ) -> Result<Self, TracerError> {
@@ -252,8 +244,11 @@ impl WhittedScene {
             light_count: records.light_count,
             reach: kernel_frame.reach,
             writes_remainder: 0,
+            least_weight: cuts.least_weight,
+            least_shadowed: cuts.least_shadowed,
         };
-        Ok(Self { kernel, records, frame, background: scene.background.as_vec3().to_array() })
+        let requirements = Requirements::of(&records, &cuts, max_depth);
+        Ok(Self { kernel, records, requirements, frame, background: scene.background.as_vec3().to_array() })
     }
 
     pub fn upload(&self, device: &Arc<Device>) -> Result<Vec<Resource>, GpuError> {
@@ -270,6 +265,7 @@ impl WhittedScene {
 /// The kernel, specialised for what a scene requires.
 pub(super) struct WhittedPipeline {
     pipeline: Arc<ComputePipeline>,
+    kernel: Kernel,
     requirements: Requirements,
     workgroup: [u32; 2],
 }
@@ -277,7 +273,6 @@ pub(super) struct WhittedPipeline {
 impl WhittedPipeline {
     pub fn new(device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
         let precision = scene.kernel.precision();
-        let requirements = Requirements::of(&scene.records);
         let mut bindings = vec![BindingKind::Picture];
         bindings.extend(scene_bindings(precision));
         // Invocations come by eights along x.
@@ -294,14 +289,16 @@ impl WhittedPipeline {
             shader,
             bindings: &bindings,
             push_constant_bytes: size_of::<WhittedFrame>() as u32,
-            constants: &requirements.constants(device, precision, workgroup)?,
+            constants: &scene.requirements.constants(device, precision, workgroup)?,
         };
-        Ok(Self { pipeline: ComputePipeline::new(device, &description)?, requirements, workgroup })
+        let pipeline = ComputePipeline::new(device, &description)?;
+        Ok(Self { pipeline, kernel: scene.kernel, requirements: scene.requirements, workgroup })
     }
 
     /// Whether it draws that scene too.
-    pub fn fits(&self, scene: &WhittedScene) -> bool {
-        self.requirements == Requirements::of(&scene.records)
+    pub fn fits(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
+        let &Self { kernel, requirements, workgroup: own_workgroup, .. } = self;
+        (kernel, requirements, own_workgroup) == (scene.kernel, scene.requirements, workgroup)
     }
 
     /// The kernel reading a scene's arrays and writing into `picture`.

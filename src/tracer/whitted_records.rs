@@ -10,7 +10,7 @@ use rayon::prelude::*;
 
 use super::hierarchy::{self, GROUP};
 use super::outlines::{bounds, is_turned, level_rows, nothing, outline};
-use super::whitted::Precision;
+use crate::plan::Precision;
 use crate::scene::{Camera, Light, Primitive, Projection, Scene, Solid, SolidKind, world_from_box};
 
 /// From the world frame to the kernel's: (world − origin)·scale, rounded once where `scale` is a power of two.
@@ -312,4 +312,8 @@ pub struct WhittedFrame {
     pub reach: f32,
     /// Not 0: the picture is what each colour loses by rounding to `f32`.
     pub writes_remainder: u32,
+    /// [`Cuts::least_weight`](crate::plan::Cuts).
+    pub least_weight: f32,
+    /// [`Cuts::least_shadowed`](crate::plan::Cuts).
+    pub least_shadowed: f32,
 }

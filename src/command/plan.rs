@@ -1,0 +1,135 @@
+//! `zerkalo plan SCENE`: what a kernel will do for a scene, what is left out, and why.
+
+use anyhow::Result;
+use clap::Args;
+use serde::Serialize;
+
+use super::render::{Precision, parse_depth, parse_size};
+use super::{DeviceArgs, print_json, print_line, scene_named};
+use crate::gpu::{self, DeviceDescription, GpuError, Texel};
+use crate::plan::{Bounds, Cuts, Limits, Line, Plan, Wishes};
+
+/// Tell what will run for a scene, what is left out and why, and what that saves
+#[derive(Debug, Clone, Args)]
+pub struct PlanArgs {
+    /// A scene file (.toml, .json) or a name of `zerkalo gallery`
+    pub scene: String,
+    /// Largest allowed change of any linear channel, such as 0.002 or 1/510; 0 is exact
+    #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error)]
+    pub error: f64,
+    /// What the kernel calculates in, in place of what the plan chooses
+    #[arg(long, value_enum)]
+    pub precision: Option<Precision>,
+    /// Generations of a ray, in place of the scene's
+    #[arg(long, value_name = "N", value_parser = parse_depth())]
+    pub max_depth: Option<u32>,
+    /// Pixels, each side 1 to 16384
+    #[arg(long, value_name = "WxH", default_value = "1621x701", value_parser = parse_size)]
+    pub size: (u32, u32),
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    /// Plan for what every Vulkan 1.2 device has, whatever there is here
+    #[arg(long, conflicts_with = "device")]
+    pub no_device: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// A finite number, 0 or greater, as a decimal or as a fraction of two.
+pub(super) fn parse_error(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let value = match text.split_once('/') {
+        Some((numerator, denominator)) => number(numerator).zip(number(denominator)).map(|(n, d)| n / d),
+        None => number(text),
+    };
+    let value = value.filter(|value| value.is_finite() && *value >= 0.0);
+    value.ok_or_else(|| "it must be a number, 0 or greater, such as 0.002 or 1/510".to_owned())
+}
+
+/// What a plan needs to know of a device.
+pub(super) fn limits_of(device: &DeviceDescription) -> Limits {
+    let &DeviceDescription { float64, max_texels, max_image_side, .. } = device;
+    Limits { float64, max_array_bytes: max_texels * Texel::BYTES, max_image_side }
+}
+
+/// What `--json` prints.
+#[derive(Debug, Serialize)]
+struct Report<'a> {
+    scene: &'a str,
+    width: u32,
+    height: u32,
+    /// Null where the plan is for what every Vulkan device has.
+    device: Option<&'a str>,
+    /// The allowed change of a linear channel, and the bound on it that the plan relies on.
+    error: f64,
+    bound: f64,
+    bounds: Bounds,
+    cuts: Cuts,
+    decisions: Vec<Line>,
+}
+
+pub fn run(args: &PlanArgs) -> Result<()> {
+    let scene = scene_named(&args.scene)?;
+    let device = device(args)?;
+    let limits = device.as_ref().map_or(Limits::PROMISED, limits_of);
+    let (width, height) = args.size;
+    let precision = args.precision.map(Precision::in_library);
+    let wishes = Wishes { precision, max_depth: args.max_depth, error: args.error, width, height };
+    let plan = Plan::for_scene(&scene, &wishes, &limits)?;
+    let device = device.as_ref().map(|device| device.name.as_str());
+    if args.json {
+        return print_json(&Report {
+            scene: &args.scene,
+            width,
+            height,
+            device,
+            error: plan.error,
+            bound: plan.bounds.total(),
+            bounds: plan.bounds,
+            cuts: plan.cuts,
+            decisions: plan.lines(),
+        });
+    }
+    let device = device.unwrap_or("any Vulkan 1.2 device (none is at hand)");
+    print_line(&format!("{} at {width}x{height} on {device}", args.scene.escape_debug()))?;
+    plan.lines().iter().try_for_each(|Line { what, choice, why, saves }| {
+        let saves = saves.as_ref().map(|saves| format!("; saves {saves}")).unwrap_or_default();
+        print_line(&format!("  {what:<13} {choice:<11} {why}{saves}"))
+    })
+}
+
+/// The device that `render` would take; none where there is no Vulkan, for a plan needs only its limits.
+fn device(args: &PlanArgs) -> Result<Option<DeviceDescription>, GpuError> {
+    if args.no_device {
+        return Ok(None);
+    }
+    let wanted = args.device.device.as_deref();
+    let found = gpu::devices().and_then(|mut devices| {
+        let index = gpu::choose(&devices, wanted)?;
+        Ok(devices.swap_remove(index))
+    });
+    match found {
+        Ok(device) => Ok(Some(device)),
+        Err(error) if wanted.is_some() => Err(error),
+        Err(GpuError::NoLoader(_) | GpuError::NoDriver | GpuError::OldLoader(_) | GpuError::NoSuitableDevice(_)) => {
+            Ok(None)
+        }
+        Err(error) => Err(error),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_decimals_and_fractions() {
+        for (text, value) in [("0", 0.0), ("0.002", 0.002), ("1/510", 1.0 / 510.0), (" 1 / 2 ", 0.5), ("1e-3", 1e-3)] {
+            assert_eq!(parse_error(text), Ok(value), "{text}");
+        }
+        for bad in ["", "-1", "1/0", "0/0", "nan", "inf", "1/-2", "1/2/3", "/", "x", "1e999", "-1/510"] {
+            assert!(parse_error(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,312 @@
+//! What an allowed error buys (NUMERICS.md, «Cutting generations with a guarantee»).
+//!
+//! A pixel is Σ T·E over the generations of its ray, T being the product of the speculars met before. Three things may
+//! be left out of it, each for a part of the allowed error, and the parts add up: none of them turns a ray, so one cut
+//! leaves the weights and the bounds of the others as they are. Where sums are clamped at the largest number, errors
+//! only shrink, for a clamp brings no two numbers farther apart.
+//!
+//! The bounds are on the change of each linear channel of a pixel against the same kernel without cuts.
+
+use std::collections::HashSet;
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::Precision;
+use super::ceiling::{Surface, ceilings};
+use crate::scene::{Material, Scene};
+
+/// What a kernel leaves out. The numbers are `f32` for kernels of either precision.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Cuts {
+    /// A path ends as soon as its weight is not above that; below 1.
+    pub least_weight: f32,
+    /// No shadow ray is traced for light of which no channel, times the path's weight, is above that; half of such light
+    /// counts, so that the error is at most half of it whether a solid is in the way or not.
+    pub least_shadowed: f32,
+    /// Whether there are highlights.
+    pub highlights: bool,
+    /// Whether there is light that brightens anything.
+    pub lights: bool,
+    /// Whether solids may hide lights.
+    pub shadows: bool,
+    /// Whether anything is reflected.
+    pub reflections: bool,
+}
+
+impl Cuts {
+    /// An exact picture.
+    pub const NONE: Self = Self {
+        least_weight: 0.0,
+        least_shadowed: 0.0,
+        highlights: true,
+        lights: true,
+        shadows: true,
+        reflections: true,
+    };
+}
+
+/// The largest change of a linear channel by each cut.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Bounds {
+    pub highlights: f64,
+    pub generations: f64,
+    pub shadows: f64,
+}
+
+impl Bounds {
+    /// By all cuts together.
+    pub fn total(&self) -> f64 {
+        self.highlights + self.generations + self.shadows
+    }
+}
+
+/// What light there is in a scene and what becomes of it.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Transport {
+    background: DVec3,
+    /// Of lights that give any light, linear RGB.
+    intensities: Vec<DVec3>,
+    /// Each once.
+    materials: Vec<Material>,
+}
+
+impl Transport {
+    pub fn of(scene: &Scene) -> Self {
+        let mut seen = HashSet::new();
+        let mut is_new = |material: &Material| {
+            let Material { color, ambient, diffuse, specular } = *material;
+            seen.insert([color.x, color.y, color.z, ambient, diffuse, specular].map(f64::to_bits))
+        };
+        let materials = scene.primitives.iter().map(|primitive| &primitive.material);
+        let intensities = scene.lights.iter().map(|light| light.intensity);
+        Self {
+            background: scene.background,
+            intensities: intensities.filter(|&intensity| intensity != DVec3::ZERO).collect(),
+            materials: materials.filter(|material| is_new(material)).cloned().collect(),
+        }
+    }
+
+    /// How many lights can brighten any surface in any channel.
+    pub fn lights_that_matter(&self) -> usize {
+        let received = self.most_received(true);
+        self.intensities.iter().filter(|&&intensity| received * intensity != DVec3::ZERO).count()
+    }
+
+    pub fn largest_specular(&self) -> f64 {
+        self.materials.iter().map(|material| material.specular).fold(0.0, f64::max)
+    }
+
+    /// No ray of `depth` generations is brighter in any channel.
+    pub fn ceiling(&self, depth: u32) -> f64 {
+        self.ceilings(depth, true)[depth as usize].max_element()
+    }
+
+    fn least_reflecting_specular(&self) -> f64 {
+        let reflecting = self.materials.iter().map(|material| material.specular).filter(|&specular| specular > 0.0);
+        reflecting.fold(1.0, f64::min)
+    }
+
+    /// The largest factor between a light's intensity and what a surface sends back of it: kd·C + ks.
+    fn most_received(&self, highlights: bool) -> DVec3 {
+        self.materials.iter().map(|material| received(material, highlights)).fold(DVec3::ZERO, DVec3::max)
+    }
+
+    fn ceilings(&self, depth: u32, highlights: bool) -> Vec<DVec3> {
+        let intensity: DVec3 = self.intensities.iter().sum();
+        let surface = |material: &Material| Surface {
+            specular: material.specular,
+            emitted: material.ambient * material.color + received(material, highlights) * intensity,
+        };
+        ceilings(self.background, &self.materials.iter().map(surface).collect::<Vec<_>>(), depth)
+    }
+
+    /// The most that all highlights on a path add.
+    fn highlight_ceiling(&self, depth: u32) -> f64 {
+        let intensity: DVec3 = self.intensities.iter().sum();
+        let surface =
+            |material: &Material| Surface { specular: material.specular, emitted: material.specular * intensity };
+        let surfaces: Vec<_> = self.materials.iter().map(surface).collect();
+        ceilings(DVec3::ZERO, &surfaces, depth)[depth as usize].max_element()
+    }
+}
+
+/// kd·C + ks, or without highlights kd·C.
+fn received(material: &Material, highlights: bool) -> DVec3 {
+    material.diffuse * material.color + if highlights { material.specular } else { 0.0 }
+}
+
+/// Part of the allowed error for which highlights go, if they all fit in it: they are cheap, and sharp to the eye.
+const HIGHLIGHTS_SHARE: f64 = 0.25;
+
+/// Part of the rest for generations where both they and shadow rays can be cut. A halved budget costs a generation or
+/// two of many; a doubled one saves shadow rays of faint light only.
+const GENERATIONS_SHARE: f64 = 0.75;
+
+/// An allowed error, spent.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Spent {
+    pub cuts: Cuts,
+    pub bounds: Bounds,
+    /// No path has a weight above `Cuts::least_weight` after so many generations.
+    pub generations: u32,
+}
+
+/// Cuts whose bounds add up to at most `error`, for paths of `depth` generations at most.
+pub(super) fn spend(
+    transport: &Transport,
+    error: f64,
+    depth: u32,
+    precision: Precision,
+    traces_shadow_rays: bool,
+    has_highlights: bool,
+) -> Spent {
+    let exact = Cuts { highlights: has_highlights, ..Cuts::NONE };
+    let mut spent = Spent { cuts: exact, bounds: Bounds::default(), generations: depth };
+    if error == 0.0 {
+        return spent;
+    }
+    let slack = 1.0 + rounding_slack(transport, depth, precision);
+    // In the numbers of the model; with the kernel's rounding, and that of the few sums here, it is `error`.
+    let mut left = error * (1.0 - 16.0 * f64::EPSILON) / slack;
+
+    if has_highlights {
+        let bound = transport.highlight_ceiling(depth);
+        if bound <= HIGHLIGHTS_SHARE * left {
+            spent.cuts.highlights = false;
+            spent.bounds.highlights = bound * slack;
+            left -= bound;
+        }
+    }
+
+    let for_generations = if traces_shadow_rays { GENERATIONS_SHARE * left } else { left };
+    if let Some(cut) = cut_generations(transport, for_generations, depth, spent.cuts.highlights) {
+        // The kernel's weight may be smaller than the true one by the slack.
+        let least_weight = rounded_down(cut.weight / slack);
+        if least_weight > 0.0 {
+            spent.cuts.least_weight = least_weight;
+            spent.bounds.generations = cut.bound * slack;
+            spent.generations = cut.generations;
+            left -= cut.bound;
+        }
+    }
+
+    if traces_shadow_rays {
+        let shadows = Shadows::new(transport, spent.generations, spent.cuts.highlights);
+        let least_shadowed = rounded_down(shadows.least_within(left));
+        spent.cuts.least_shadowed = least_shadowed;
+        spent.bounds.shadows = shadows.bound(f64::from(least_shadowed)) * slack;
+    }
+    spent
+}
+
+/// How much a kernel's numbers may exceed the model's, relatively: a weight is rounded twice a generation (the stored
+/// specular, the product), and what a light sends is a sum over lights of products of a few factors, among them the
+/// fifth power of a cosine that is off by some 8u.
+fn rounding_slack(transport: &Transport, depth: u32, precision: Precision) -> f64 {
+    (4.0 * f64::from(depth) + transport.intensities.len() as f64 + 64.0) * precision.unit_roundoff()
+}
+
+/// The largest `f32` that is not above and a normal number, or 0.
+fn rounded_down(value: f64) -> f32 {
+    let nearest = value.min(f64::from(f32::MAX)) as f32;
+    let below = if f64::from(nearest) > value { nearest.next_down() } else { nearest };
+    if below < f32::MIN_POSITIVE { 0.0 } else { below }
+}
+
+/// Where paths end.
+struct GenerationCut {
+    /// As soon as they weigh no more than that.
+    weight: f64,
+    bound: f64,
+    /// None is longer.
+    generations: u32,
+}
+
+/// The largest weight τ for whose sake no pixel loses more than `error`; None where no path gets light enough.
+///
+/// With k and K the least and the largest specular that reflects, a path's weight after m reflections is from kᵐ to Kᵐ.
+/// So where τ < kᵐ⁻¹ none is cut before it has been reflected m times: it weighs at most min(τ, Kᵐ) then, and has
+/// `depth` − m generations to go, of which the ceiling is known.
+fn cut_generations(transport: &Transport, error: f64, depth: u32, highlights: bool) -> Option<GenerationCut> {
+    let (least, largest) = (transport.least_reflecting_specular(), transport.largest_specular());
+    if least == 1.0 || largest == 0.0 {
+        return None;
+    }
+    let ceilings = transport.ceilings(depth, highlights);
+    // Below a power by more than its rounding.
+    let below = |power: f64| power * (1.0 - 2f64.powi(-20));
+    let (mut least_power, mut largest_power) = (1.0, 1.0);
+    for reflections in 1..depth {
+        let uncut_power = below(least_power);
+        least_power *= least;
+        largest_power *= largest;
+        let ceiling = ceilings[(depth - reflections) as usize].max_element();
+        let weight = if largest_power * ceiling <= error { uncut_power } else { uncut_power.min(error / ceiling) };
+        if weight >= least_power {
+            let bound = weight.min(largest_power) * ceiling;
+            return Some(GenerationCut { weight, bound, generations: longest(largest, weight, depth) });
+        }
+    }
+    None
+}
+
+/// Generations of a path that keeps the largest weight, up to where it is not above `weight`.
+fn longest(largest_specular: f64, weight: f64, depth: u32) -> u32 {
+    let mut power = 1.0;
+    for reflections in 1..depth {
+        power *= largest_specular;
+        if power <= weight {
+            return reflections;
+        }
+    }
+    depth
+}
+
+/// What leaving out shadow rays can change.
+struct Shadows {
+    /// Of each light, the most that any surface sends back.
+    sent: Vec<DVec3>,
+    largest_specular: f64,
+    generations: u32,
+}
+
+impl Shadows {
+    fn new(transport: &Transport, generations: u32, highlights: bool) -> Self {
+        let received = transport.most_received(highlights);
+        let sent = transport.intensities.iter().map(|&intensity| received * intensity).collect();
+        Self { sent, largest_specular: transport.largest_specular(), generations }
+    }
+
+    /// ½·Σ min(ε, Kᵍ·sent) over generations g and lights: half of each light's part, which is at most ε where the ray is
+    /// left out.
+    fn bound(&self, least_shadowed: f64) -> f64 {
+        let mut sum = DVec3::ZERO;
+        let mut weight = 1.0;
+        for _ in 0..self.generations {
+            let of_lights = self.sent.iter().map(|&sent| DVec3::splat(least_shadowed).min(weight * sent));
+            sum += of_lights.sum::<DVec3>();
+            weight *= self.largest_specular;
+        }
+        0.5 * sum.max_element()
+    }
+
+    /// About the largest ε whose bound is within `error`, never above; infinite where all shadows fit.
+    fn least_within(&self, error: f64) -> f64 {
+        let largest = self.sent.iter().map(|sent| sent.max_element()).fold(0.0, f64::max);
+        if self.bound(largest) <= error {
+            return f64::INFINITY;
+        }
+        // The bound is at most ½·ε for each light in each generation, and at least half of one ε.
+        let mut low = 2.0 * error / (f64::from(self.generations) * self.sent.len() as f64);
+        let mut high = (2.0 * error).min(largest);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (low + high);
+            if self.bound(middle) <= error { low = middle } else { high = middle }
+        }
+        low
+    }
+}
+
+/// From a factor of 64 lights times 1000 generations to a thousandth.
+const HALVINGS: u32 = 26;

@@ -1,0 +1,345 @@
+//! What a scene requires of a kernel, and nothing more; why; and what an allowed error buys on top. Pure: no Vulkan.
+//!
+//! ```
+//! use zerkalo::plan::{Limits, Plan, Wishes};
+//! use zerkalo::scene::gallery;
+//!
+//! let scene = gallery::scene("corridor").expect("a scene of the gallery");
+//! let wishes = Wishes { error: 1.0 / 510.0, ..Wishes::exact(1621, 701) };
+//! let plan = Plan::for_scene(&scene, &wishes, &Limits::PROMISED).expect("it fits every device");
+//! assert!(plan.bounds.total() <= wishes.error);
+//! ```
+
+mod budget;
+mod ceiling;
+mod precision;
+mod reason;
+mod solids;
+mod tiling;
+
+pub use budget::{Bounds, Cuts};
+pub use precision::Precision;
+pub use reason::{Line, Reason};
+pub use tiling::tile_side;
+
+use glam::DVec3;
+use thiserror::Error;
+
+use crate::scene::{DEPTH_LIMIT, Scene, SolidKind};
+use budget::{Spent, Transport, spend};
+use solids::{is_lone_and_seen_from_outside, turned_boxes};
+
+/// What is asked for besides the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Wishes {
+    pub precision: Option<Precision>,
+    /// In place of the scene's.
+    pub max_depth: Option<u32>,
+    /// Largest allowed change of any linear channel by what is left out; 0: nothing is.
+    pub error: f64,
+    /// Pixels.
+    pub width: u32,
+    pub height: u32,
+}
+
+impl Wishes {
+    /// An exact picture, all else as the scene and the program have it.
+    pub fn exact(width: u32, height: u32) -> Self {
+        Self { precision: None, max_depth: None, error: 0.0, width, height }
+    }
+}
+
+/// What a device can do.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Limits {
+    /// Whether kernels can calculate in `f64`.
+    pub float64: bool,
+    /// Largest array that a kernel can see, bytes.
+    pub max_array_bytes: u64,
+    /// Largest picture side in one tile, pixels.
+    pub max_image_side: u32,
+}
+
+impl Limits {
+    /// What every Vulkan device has (the specification's table of required limits).
+    pub const PROMISED: Self = Self { float64: false, max_array_bytes: 1 << 20, max_image_side: 4096 };
+}
+
+/// Why there is no plan. Each is one line, and the input's fault.
+#[derive(Debug, Clone, PartialEq, Error)]
+pub enum PlanError {
+    #[error("the allowed error is {0}: it must be a finite number, 0 or greater")]
+    Error(f64),
+    #[error("a picture of {width}x{height} pixels has none")]
+    Size { width: u32, height: u32 },
+    #[error("{0} generations: there must be 1 to {DEPTH_LIMIT} of them")]
+    Depth(u32),
+    #[error("the device cannot calculate in f64 (it lacks shaderFloat64); --precision f32 works there")]
+    NoFloat64,
+    #[error("the scene is too large: its {array} take {bytes} B in {}, and a kernel sees {limit} B there", .precision.name())]
+    TooLarge { array: &'static str, bytes: u64, limit: u64, precision: Precision },
+}
+
+/// What was decided, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Decision<T> {
+    pub choice: T,
+    pub reason: Reason,
+}
+
+/// How the nearest solid is found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Structure {
+    /// Every solid's outline is tried by every ray.
+    None,
+    /// Boxes around every eight solids, around every eight boxes, and so on: so many levels.
+    Hierarchy { levels: u32 },
+}
+
+impl Structure {
+    /// Up to so many solids of a kind a ray looks at each of them.
+    pub const BREAK_EVEN: usize = 32;
+
+    /// Solids in a box, and boxes in one of the level above.
+    pub const GROUP: usize = 8;
+
+    /// Over the solids of one kind.
+    pub fn over(solids: usize) -> Self {
+        let mut boxes = solids;
+        let mut levels = 0;
+        while boxes > Self::BREAK_EVEN {
+            boxes = boxes.div_ceil(Self::GROUP);
+            levels += 1;
+        }
+        if levels == 0 { Self::None } else { Self::Hierarchy { levels } }
+    }
+
+    fn decide(counts: [usize; 4]) -> Decision<[Self; 4]> {
+        let most = counts.into_iter().max().unwrap_or_default();
+        let reason = if most > Self::BREAK_EVEN {
+            Reason::ManySolids { solids: most, break_even: Self::BREAK_EVEN }
+        } else {
+            Reason::FewSolids { solids: most, break_even: Self::BREAK_EVEN }
+        };
+        Decision { choice: counts.map(Self::over), reason }
+    }
+}
+
+/// What a kernel has to do for a scene. What is false, 0 or 1 here can be compiled out.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Plan {
+    /// Solids of each kind, in the order of [`SolidKind::ALL`].
+    pub counts: [usize; 4],
+    /// Whether no box is turned against the world's axes.
+    pub upright_boxes: Decision<bool>,
+    /// All lights: primary rays see their balls.
+    pub balls: usize,
+    /// Lights that brighten anything. Where there are none, nothing is shaded by light; one needs no loop.
+    pub lights: Decision<usize>,
+    /// Whether a solid may lie between a hit and a light.
+    pub shadows: Decision<bool>,
+    /// Whether highlights are drawn.
+    pub highlights: Decision<bool>,
+    /// Generations of a ray, the primary one included. Where it is 1, nothing is reflected.
+    pub generations: Decision<u32>,
+    pub precision: Decision<Precision>,
+    /// Of each kind.
+    pub structures: Decision<[Structure; 4]>,
+    /// Pixels of a workgroup along x and y.
+    pub workgroup: Decision<[u32; 2]>,
+    /// Side of what one submission traces, pixels.
+    pub tile_side: Decision<u32>,
+    /// The allowed error.
+    pub error: f64,
+    /// What it bought.
+    pub cuts: Cuts,
+    /// What that can change; its total is at most `error`.
+    pub bounds: Bounds,
+}
+
+impl Plan {
+    /// For a scene that [is valid](Scene::validate).
+    ///
+    /// # Errors
+    /// Wishes that make no sense, or that the device cannot fulfil.
+    pub fn for_scene(scene: &Scene, wishes: &Wishes, limits: &Limits) -> Result<Self, PlanError> {
+        wishes.check()?;
+        let transport = Transport::of(scene);
+        let is_lone = is_lone_and_seen_from_outside(scene);
+        let counts = SolidKind::ALL
+            .map(|kind| scene.primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count());
+        let precision = precision::choose(scene, wishes, limits)?;
+        check_arrays(scene, counts, precision.choice, limits)?;
+
+        let lights = lights(scene, &transport);
+        let is_lit = lights.choice > 0;
+        let shadows = shadows(scene, is_lit, is_lone);
+        let highlights = highlights(&transport, is_lit);
+        let generations = generations(scene, wishes, &transport, is_lone);
+        let spent =
+            spend(&transport, wishes.error, generations.choice, precision.choice, shadows.choice, highlights.choice);
+        let Spent { cuts, bounds, .. } = spent;
+        let generations = cut_generations(generations, &spent);
+        let cuts = Cuts { lights: is_lit, shadows: shadows.choice, reflections: generations.choice > 1, ..cuts };
+        Ok(Self {
+            counts,
+            upright_boxes: upright_boxes(scene, counts),
+            balls: scene.lights.len(),
+            lights,
+            shadows,
+            highlights: cut_highlights(highlights, &spent),
+            precision,
+            structures: Structure::decide(counts),
+            workgroup: Decision { choice: WORKGROUP, reason: Reason::SquareWorkgroup },
+            tile_side: tiling::decide(scene, generations.choice, limits),
+            generations,
+            error: wishes.error,
+            cuts,
+            bounds,
+        })
+    }
+}
+
+/// As many pixels as a GPU's wave has lanes, or twice as many, in the most compact shape.
+const WORKGROUP: [u32; 2] = [8, 8];
+
+impl Wishes {
+    fn check(&self) -> Result<(), PlanError> {
+        let &Self { max_depth, error, width, height, .. } = self;
+        if !(error.is_finite() && error >= 0.0) {
+            return Err(PlanError::Error(error));
+        }
+        if width == 0 || height == 0 {
+            return Err(PlanError::Size { width, height });
+        }
+        match max_depth {
+            Some(depth) if !(1..=DEPTH_LIMIT).contains(&depth) => Err(PlanError::Depth(depth)),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Rows of four numbers in the kernel's records: of a solid of each kind, of its outline, of a box around solids, a
+/// material, the view and a light (`glsl/whitted/scene.glsl`).
+const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
+const OUTLINE_ROWS: [usize; 4] = [1, 2, 2, 2];
+const BOX_ROWS: usize = 2;
+const MATERIAL_ROWS: usize = 2;
+const VIEW_ROWS: usize = 4;
+const LIGHT_ROWS: usize = 2;
+
+/// Refuses a scene that does not fit the device's arrays. Solids and boxes come in whole groups.
+fn check_arrays(scene: &Scene, counts: [usize; 4], precision: Precision, limits: &Limits) -> Result<(), PlanError> {
+    let whole = |count: usize| count.next_multiple_of(Structure::GROUP);
+    let boxes_over = |count: usize| -> usize {
+        let levels = match Structure::over(count) {
+            Structure::None => 0,
+            Structure::Hierarchy { levels } => levels,
+        };
+        (1..=levels).map(|level| whole(count.div_ceil(Structure::GROUP.pow(level)))).sum()
+    };
+    let of_kind = |kind: usize| OUTLINE_ROWS[kind] * whole(counts[kind]) + BOX_ROWS * boxes_over(counts[kind]);
+    let [spheres, boxes, cylinders, cones] = std::array::from_fn(|kind| SOLID_ROWS[kind] * whole(counts[kind]));
+    let row_bytes = match precision {
+        Precision::F32 => 16,
+        Precision::F64 => 32,
+    };
+    let own = [
+        ("view and lights", VIEW_ROWS + LIGHT_ROWS * scene.lights.len()),
+        ("spheres", spheres),
+        ("boxes", boxes),
+        ("cylinders", cylinders),
+        ("cones", cones),
+        ("materials", MATERIAL_ROWS * counts.map(whole).iter().sum::<usize>()),
+    ];
+    // The outlines are of `f32` for either precision.
+    let outlines = ("outlines", 16 * (0..4).map(of_kind).sum::<usize>() as u64);
+    let limit = limits.max_array_bytes;
+    let mut arrays = own.into_iter().map(|(array, rows)| (array, rows as u64 * row_bytes)).chain([outlines]);
+    match arrays.find(|&(_, bytes)| bytes > limit) {
+        Some((array, bytes)) => Err(PlanError::TooLarge { array, bytes, limit, precision }),
+        None => Ok(()),
+    }
+}
+
+fn upright_boxes(scene: &Scene, counts: [usize; 4]) -> Decision<bool> {
+    let boxes = counts[SolidKind::Box as usize];
+    let turned = turned_boxes(scene);
+    let reason = match (boxes, turned) {
+        (0, _) => Reason::NoBoxes,
+        (_, 0) => Reason::NoBoxTurned,
+        (boxes, turned) => Reason::BoxesTurned { boxes, turned },
+    };
+    Decision { choice: turned == 0, reason }
+}
+
+fn lights(scene: &Scene, transport: &Transport) -> Decision<usize> {
+    let choice = transport.lights_that_matter();
+    let lights = scene.lights.len();
+    let reason = if lights == 0 {
+        Reason::NoLights
+    } else if scene.primitives.is_empty() {
+        Reason::NoSolids
+    } else if choice == 0 {
+        Reason::NothingTakesLight { lights }
+    } else {
+        Reason::LightsMatter { lights, dark: lights - choice }
+    };
+    Decision { choice, reason }
+}
+
+fn shadows(scene: &Scene, is_lit: bool, is_lone: bool) -> Decision<bool> {
+    let (choice, reason) = match (is_lit, is_lone) {
+        (false, _) => (false, Reason::NothingIsLit),
+        (true, true) => (false, Reason::LoneSolidShadowsNothing),
+        (true, false) => (true, Reason::SolidsMayHide { solids: scene.primitives.len() }),
+    };
+    Decision { choice, reason }
+}
+
+fn highlights(transport: &Transport, is_lit: bool) -> Decision<bool> {
+    let (choice, reason) = match (is_lit, transport.largest_specular() > 0.0) {
+        (false, _) => (false, Reason::NothingIsLit),
+        (true, false) => (false, Reason::NothingIsSpecular),
+        (true, true) => (true, Reason::SomethingIsSpecular),
+    };
+    Decision { choice, reason }
+}
+
+/// Highlights as far as the allowed error leaves them.
+fn cut_highlights(exact: Decision<bool>, spent: &Spent) -> Decision<bool> {
+    if exact.choice && !spent.cuts.highlights {
+        return Decision { choice: false, reason: Reason::HighlightsAreFaint { bound: spent.bounds.highlights } };
+    }
+    exact
+}
+
+/// Without an error.
+fn generations(scene: &Scene, wishes: &Wishes, transport: &Transport, is_lone: bool) -> Decision<u32> {
+    let asked = match wishes.max_depth {
+        Some(depth) => Decision { choice: depth, reason: Reason::Asked },
+        None => Decision { choice: scene.max_depth, reason: Reason::SceneSays },
+    };
+    let (choice, reason) = if scene.primitives.is_empty() {
+        (1, Reason::NoSolids)
+    } else if transport.largest_specular() == 0.0 {
+        (1, Reason::NothingIsSpecular)
+    } else if transport.ceiling(asked.choice) == 0.0 || (is_lone && scene.background == DVec3::ZERO) {
+        (1, Reason::ReflectionsAreBlack)
+    } else if is_lone {
+        (2, Reason::LoneSolidMirrorsBackground)
+    } else {
+        return asked;
+    };
+    if choice < asked.choice { Decision { choice, reason } } else { asked }
+}
+
+/// The generations that the allowed error leaves.
+fn cut_generations(exact: Decision<u32>, spent: &Spent) -> Decision<u32> {
+    let Spent { cuts, bounds, generations } = *spent;
+    if cuts.least_weight == 0.0 {
+        return exact;
+    }
+    let reason = Reason::PathsFade { least_weight: cuts.least_weight, of: exact.choice, bound: bounds.generations };
+    Decision { choice: generations, reason }
+}

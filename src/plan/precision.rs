@@ -1,0 +1,116 @@
+//! What a kernel calculates in, and what rounding then moves.
+
+use glam::DVec3;
+
+use super::solids::{outside_by, size};
+use super::{Decision, Limits, PlanError, Reason, Wishes};
+use crate::scene::{Camera, Projection, Scene, Solid};
+
+/// What a kernel calculates in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Precision {
+    #[default]
+    F32,
+    F64,
+}
+
+impl Precision {
+    /// Half the distance from 1 to the next number.
+    pub fn unit_roundoff(self) -> f64 {
+        match self {
+            Self::F32 => f64::from(f32::EPSILON) / 2.0,
+            Self::F64 => f64::EPSILON / 2.0,
+        }
+    }
+
+    /// The word of the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F32 => "f32",
+            Self::F64 => "f64",
+        }
+    }
+
+    /// The release bar of NUMERICS.md: how far rounding may take a linear channel off discontinuities, in a picture
+    /// whose light is about 1. It is tested over catalogues of scenes, not proven.
+    pub fn rounding_bar(self) -> f64 {
+        match self {
+            Self::F32 => 1.0 / 510.0,
+            Self::F64 => 1e-9,
+        }
+    }
+}
+
+/// Silhouettes that move by less change only pixels that they run through.
+const LARGEST_SHIFT_PIXELS: f64 = 0.5;
+
+/// As asked for, else f32 unless an error is allowed that f32 may exceed by rounding alone.
+pub(super) fn choose(scene: &Scene, wishes: &Wishes, limits: &Limits) -> Result<Decision<Precision>, PlanError> {
+    let decide = |choice, reason| Ok(Decision { choice, reason });
+    match wishes.precision {
+        Some(Precision::F64) if !limits.float64 => return Err(PlanError::NoFloat64),
+        Some(precision) => return decide(precision, Reason::Asked),
+        None => {}
+    }
+    let shift_pixels = silhouette_shift_pixels(scene, wishes, Precision::F32);
+    let bar = Precision::F32.rounding_bar() * brightest_source(scene).max(1.0);
+    if wishes.error == 0.0 {
+        return decide(Precision::F32, Reason::RoundingIsNoCut { bar, shift_pixels });
+    }
+    let reason = if wishes.error < bar {
+        Reason::RoundingExceedsError { bar }
+    } else if shift_pixels > LARGEST_SHIFT_PIXELS {
+        Reason::RoundingMovesSilhouettes { shift_pixels }
+    } else {
+        return decide(Precision::F32, Reason::RoundingIsWithinError { bar, shift_pixels });
+    };
+    if limits.float64 {
+        decide(Precision::F64, reason)
+    } else {
+        decide(Precision::F32, Reason::NoFloat64 { bar, shift_pixels })
+    }
+}
+
+/// The largest channel of the background and of the lights.
+fn brightest_source(scene: &Scene) -> f64 {
+    let lights = scene.lights.iter().map(|light| light.intensity.max_element());
+    lights.fold(scene.background.max_element(), f64::max)
+}
+
+/// No silhouette that the camera sees directly is drawn farther than that from where it is, in pixels. In mirrors there
+/// is no such bound: a round one multiplies an angle's error at every reflection.
+///
+/// A kernel errs between hit and miss where the clearance is below 8u·size (NUMERICS.md, H); the stored solid is off by
+/// u of its place, seen from the camera, and of its size; the ray's direction by less than 32u of the window's extent.
+pub(super) fn silhouette_shift_pixels(scene: &Scene, wishes: &Wishes, precision: Precision) -> f64 {
+    let u = precision.unit_roundoff();
+    let Camera { position, vertical_fov_degrees, projection, .. } = scene.camera;
+    let half_height = (vertical_fov_degrees.to_radians() / 2.0).tan();
+    let half_width = half_height * f64::from(wishes.width) / f64::from(wishes.height);
+    // The window's farthest corner, and its height, in half extents.
+    let (corner, window_height) = match projection {
+        Projection::Centered => (1.0, 2.0),
+        Projection::Course => (3.0, 4.0),
+    };
+    let corner = (corner * half_width).hypot(corner * half_height);
+    // A turn by dθ moves an image by dθ·(1 + r²), r being its distance from the axis in the plane at distance 1.
+    let pixels_per_radian = (1.0 + corner * corner) * f64::from(wishes.height) / (window_height * half_height);
+    let solid_shift = |solid: &Solid| {
+        let size = size(solid);
+        let from_camera = (solid.position() - position).length();
+        let distance = nearest_silhouette(solid, position);
+        if distance > 0.0 { (9.0 * size + from_camera) / distance } else { 0.0 }
+    };
+    let angle = scene.primitives.iter().map(|primitive| solid_shift(&primitive.solid)).fold(0.0, f64::max);
+    u * (angle + 32.0 * (1.0 + corner)) * pixels_per_radian
+}
+
+/// A lower bound on the distance of a solid's silhouette; 0 from inside, where there is none.
+fn nearest_silhouette(solid: &Solid, camera: DVec3) -> f64 {
+    let outside_by = outside_by(solid, camera).max(0.0);
+    match *solid {
+        // The tangent's length: r + d is the distance of the centre.
+        Solid::Sphere { radius, .. } => (outside_by * (2.0 * radius + outside_by)).sqrt(),
+        Solid::Box { .. } | Solid::Cylinder { .. } | Solid::Cone { .. } => outside_by,
+    }
+}

@@ -1,0 +1,321 @@
+//! Why a plan is as it is, in words.
+
+use std::fmt;
+
+use serde::Serialize;
+
+use super::{Decision, Plan, Structure};
+use crate::scene::SolidKind;
+
+/// Why something was decided; `Display` is one line of text.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Reason {
+    /// It is the user's wish.
+    Asked,
+    SceneSays,
+    NoSolids,
+    NoBoxes,
+    NoBoxTurned,
+    BoxesTurned {
+        boxes: usize,
+        turned: usize,
+    },
+    NoLights,
+    /// All are dark, or no surface sends anything back in their colours.
+    NothingTakesLight {
+        lights: usize,
+    },
+    /// `dark` of them brighten nothing.
+    LightsMatter {
+        lights: usize,
+        dark: usize,
+    },
+    NothingIsLit,
+    LoneSolidShadowsNothing,
+    SolidsMayHide {
+        solids: usize,
+    },
+    NothingIsSpecular,
+    SomethingIsSpecular,
+    /// All highlights together.
+    HighlightsAreFaint {
+        bound: f64,
+    },
+    ReflectionsAreBlack,
+    LoneSolidMirrorsBackground,
+    /// `of`: generations without an error.
+    PathsFade {
+        least_weight: f32,
+        of: u32,
+        bound: f64,
+    },
+    /// `bar`: see [`Precision::rounding_bar`](super::Precision::rounding_bar), times the brightest source above 1;
+    /// `shift_pixels`: of silhouettes that the camera sees directly.
+    RoundingIsNoCut {
+        bar: f64,
+        shift_pixels: f64,
+    },
+    RoundingIsWithinError {
+        bar: f64,
+        shift_pixels: f64,
+    },
+    RoundingExceedsError {
+        bar: f64,
+    },
+    RoundingMovesSilhouettes {
+        shift_pixels: f64,
+    },
+    /// Though the allowed error asks for it.
+    NoFloat64 {
+        bar: f64,
+        shift_pixels: f64,
+    },
+    FewSolids {
+        solids: usize,
+        break_even: usize,
+    },
+    ManySolids {
+        solids: usize,
+        break_even: usize,
+    },
+    SquareWorkgroup,
+    LightTiles,
+    /// `largest`: side of a tile without that, pixels.
+    HeavyTiles {
+        largest: u32,
+    },
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Asked => write!(f, "as asked for"),
+            Self::SceneSays => write!(f, "as the scene says"),
+            Self::NoSolids => write!(f, "there is no solid to be hit"),
+            Self::NoBoxes => write!(f, "there are no boxes"),
+            Self::NoBoxTurned => write!(f, "no box is turned"),
+            Self::BoxesTurned { boxes, turned } => write!(f, "{turned} of {boxes} boxes are turned"),
+            Self::NoLights => write!(f, "the scene has none"),
+            Self::NothingTakesLight { lights } => {
+                write!(f, "{lights} in the scene, but no surface sends back anything of their light")
+            }
+            Self::LightsMatter { lights, dark: 0 } => write!(f, "{lights} in the scene"),
+            Self::LightsMatter { lights, dark } => write!(f, "{lights} in the scene, of which {dark} brighten nothing"),
+            Self::NothingIsLit => write!(f, "nothing is lit"),
+            Self::LoneSolidShadowsNothing => {
+                write!(f, "one convex solid, seen from outside, casts no shadow on itself but where it turns away")
+            }
+            Self::SolidsMayHide { solids } => write!(f, "{solids} solid(s) may lie between a hit and a light"),
+            Self::NothingIsSpecular => write!(f, "no material is specular"),
+            Self::SomethingIsSpecular => write!(f, "some material is specular"),
+            Self::HighlightsAreFaint { bound } => {
+                write!(f, "all highlights of a pixel add at most {} to a channel", Short(bound))
+            }
+            Self::ReflectionsAreBlack => write!(f, "all that could be mirrored is black"),
+            Self::LoneSolidMirrorsBackground => {
+                write!(f, "one convex solid, seen from outside, mirrors nothing but the background")
+            }
+            Self::PathsFade { least_weight, of, bound } => write!(
+                f,
+                "of {of}: a path ends at a weight of {}, and what it leaves out is at most {}",
+                Short(least_weight.into()),
+                Short(bound)
+            ),
+            Self::RoundingIsNoCut { bar, shift_pixels } => write!(
+                f,
+                "nothing is cut by rounding: channels keep within {} off edges (tested), silhouettes seen \
+                 directly within {} pixels",
+                Short(bar),
+                Short(shift_pixels)
+            ),
+            Self::RoundingIsWithinError { bar, shift_pixels } => write!(
+                f,
+                "rounding to f32 keeps channels within {} off edges (tested; not part of the bound), silhouettes \
+                 seen directly within {} pixels",
+                Short(bar),
+                Short(shift_pixels)
+            ),
+            Self::RoundingExceedsError { bar } => {
+                write!(
+                    f,
+                    "rounding to f32 alone is only known to keep channels within {}, more than is allowed",
+                    Short(bar)
+                )
+            }
+            Self::RoundingMovesSilhouettes { shift_pixels } => {
+                write!(f, "rounding to f32 may move silhouettes by {} pixels", Short(shift_pixels))
+            }
+            Self::NoFloat64 { bar, shift_pixels } => write!(
+                f,
+                "the device has no f64: rounding may change channels by {} and move silhouettes by {} pixels",
+                Short(bar),
+                Short(shift_pixels)
+            ),
+            Self::FewSolids { solids, break_even } => {
+                write!(f, "{solids} solid(s) of a kind at most, and up to {break_even} are looked at one by one")
+            }
+            Self::ManySolids { solids, break_even } => {
+                write!(f, "{solids} solids of a kind, more than the {break_even} that are looked at one by one")
+            }
+            Self::SquareWorkgroup => write!(f, "as many pixels as a wave has lanes, near each other"),
+            Self::LightTiles => write!(f, "one submission can trace that much within a second or two"),
+            Self::HeavyTiles { largest } => {
+                write!(
+                    f,
+                    "in place of {largest}: a submission of heavier rays must not take longer than a second or two"
+                )
+            }
+        }
+    }
+}
+
+/// A number to four digits, bounds and the like: always rounded up.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(value) = *self;
+        if value == 0.0 {
+            return write!(f, "0");
+        }
+        let unit = 10f64.powi(value.abs().log10().floor() as i32 - 3);
+        let rounded = (value / unit).ceil() * unit;
+        if (1e-3..1e6).contains(&rounded) { write!(f, "{rounded:.6}") } else { write!(f, "{rounded:.3e}") }
+    }
+}
+
+/// A decision as people read it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Line {
+    /// What it is about.
+    pub what: &'static str,
+    pub choice: String,
+    pub why: String,
+    /// What is left out of the kernel or of its work.
+    pub saves: Option<String>,
+}
+
+impl Line {
+    fn new<T>(what: &'static str, choice: impl fmt::Display, decision: &Decision<T>, saves: Option<&str>) -> Self {
+        let (choice, why) = (choice.to_string(), decision.reason.to_string());
+        Self { what, choice, why, saves: saves.map(str::to_owned) }
+    }
+}
+
+impl Plan {
+    /// Every decision, in the order in which a ray meets them.
+    pub fn lines(&self) -> Vec<Line> {
+        let mut lines: Vec<Line> = SolidKind::ALL.into_iter().map(|kind| self.kind_line(kind)).collect();
+        lines.push(self.upright_line());
+        lines.push(Line::new("structure", structures(&self.structures.choice), &self.structures, None));
+        lines.extend([self.lights_line(), self.shadows_line(), self.highlights_line(), self.generations_line()]);
+        lines.push(Line::new("precision", self.precision.choice.name(), &self.precision, None));
+        let [width, height] = self.workgroup.choice;
+        lines.push(Line::new("workgroup", format!("{width}x{height}"), &self.workgroup, None));
+        let side = self.tile_side.choice;
+        lines.push(Line::new("tiles", format!("{side}x{side}"), &self.tile_side, None));
+        lines.extend(self.shadow_cut_line());
+        lines.push(self.error_line());
+        lines
+    }
+
+    fn kind_line(&self, kind: SolidKind) -> Line {
+        let count = self.counts[kind as usize];
+        let (what, search) = match kind {
+            SolidKind::Sphere => ("spheres", "the search through spheres"),
+            SolidKind::Box => ("boxes", "the search through boxes"),
+            SolidKind::Cylinder => ("cylinders", "the search through cylinders"),
+            SolidKind::Cone => ("cones", "the search through cones"),
+        };
+        let why = if count == 0 { "the scene has none" } else { "in the scene" }.to_owned();
+        Line { what, choice: none_or(count), why, saves: (count == 0).then(|| search.to_owned()) }
+    }
+
+    fn upright_line(&self) -> Line {
+        let has_boxes = self.counts[SolidKind::Box as usize] > 0;
+        let saves = (self.upright_boxes.choice && has_boxes).then_some("the turn of every ray into every box");
+        let choice = if self.upright_boxes.choice { "none" } else { "yes" };
+        Line::new("turned boxes", choice, &self.upright_boxes, saves)
+    }
+
+    fn lights_line(&self) -> Line {
+        let saves = match self.lights.choice {
+            0 => Some("all shading by lights"),
+            1 => Some("the loop over lights"),
+            _ => None,
+        };
+        Line::new("lights", none_or(self.lights.choice), &self.lights, saves)
+    }
+
+    fn shadows_line(&self) -> Line {
+        let saves = (!self.shadows.choice).then_some("a shadow ray for every light at every hit");
+        Line::new("shadow rays", yes_or_none(self.shadows.choice), &self.shadows, saves)
+    }
+
+    fn highlights_line(&self) -> Line {
+        let saves = (!self.highlights.choice).then_some("a mirrored direction for every light at every hit");
+        Line::new("highlights", yes_or_none(self.highlights.choice), &self.highlights, saves)
+    }
+
+    fn generations_line(&self) -> Line {
+        let generations = self.generations.choice;
+        let saves = match self.generations.reason {
+            Reason::PathsFade { of, .. } if generations < of => Some(format!(
+                "the last {} generations of every path, and more of those that fade faster",
+                of - generations
+            )),
+            Reason::PathsFade { .. } => Some("the ends of paths that fade faster".to_owned()),
+            _ if generations == 1 => Some("all reflections".to_owned()),
+            _ => None,
+        };
+        Line::new("generations", generations, &self.generations, saves.as_deref())
+    }
+
+    fn shadow_cut_line(&self) -> Option<Line> {
+        let least = self.cuts.least_shadowed;
+        (least > 0.0).then(|| Line {
+            what: "faint shadows",
+            choice: "left out".to_owned(),
+            why: format!(
+                "half of any light below {} counts without a shadow ray, at most {} off in all",
+                Short(least.into()),
+                Short(self.bounds.shadows)
+            ),
+            saves: Some("the shadow rays of faint light".to_owned()),
+        })
+    }
+
+    fn error_line(&self) -> Line {
+        let Self { error, bounds, .. } = self;
+        let why = if bounds.total() == 0.0 {
+            "nothing is left out that a pixel could show".to_owned()
+        } else {
+            format!(
+                "the bound relied on: highlights {} + generations {} + shadows {}, of {} allowed",
+                Short(bounds.highlights),
+                Short(bounds.generations),
+                Short(bounds.shadows),
+                Short(*error)
+            )
+        };
+        Line { what: "error", choice: Short(bounds.total()).to_string(), why, saves: None }
+    }
+}
+
+/// The kinds that have one, with the levels of it.
+fn structures(structures: &[Structure; 4]) -> String {
+    let level = |(kind, structure): (SolidKind, &Structure)| match structure {
+        Structure::None => None,
+        Structure::Hierarchy { levels } => Some(format!("{} {levels} level(s)", kind.name())),
+    };
+    let levels: Vec<_> = SolidKind::ALL.into_iter().zip(structures).filter_map(level).collect();
+    if levels.is_empty() { "none".to_owned() } else { format!("hierarchy: {}", levels.join(", ")) }
+}
+
+fn none_or(count: usize) -> String {
+    if count == 0 { "none".to_owned() } else { count.to_string() }
+}
+
+fn yes_or_none(is: bool) -> &'static str {
+    if is { "yes" } else { "none" }
+}

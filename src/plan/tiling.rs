@@ -1,0 +1,40 @@
+//! How much of a picture one submission traces.
+
+use super::{Decision, Limits, Reason};
+use crate::scene::Scene;
+
+/// Pixels: larger tiles save nothing more.
+const LARGEST_SIDE: u32 = 1024;
+
+pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decision<u32> {
+    let largest = LARGEST_SIDE.min(limits.max_image_side);
+    let choice = tile_side(largest, scene.primitives.len(), scene.lights.len(), generations);
+    let reason = if choice < largest { Reason::HeavyTiles { largest } } else { Reason::LightTiles };
+    Decision { choice, reason }
+}
+
+/// Side of a tile, pixels: at most `max`, and so small that one submission makes no more than about 2²⁸ intersection
+/// tests, if that leaves it 64 pixels. At worst every ray goes through all generations, with a shadow ray a light each.
+/// 2²⁸ tests take lavapipe on two cores a second or two: so long may Ctrl-C and the progress bar wait; on a small GPU
+/// they stay far below the seconds after which a driver takes it for hung.
+pub fn tile_side(max: u32, primitives: usize, lights: usize, max_depth: u32) -> u32 {
+    const TESTS: u64 = 1 << 28;
+    let tests_per_pixel = u64::from(max_depth) * (1 + lights as u64) * (primitives as u64 + 1);
+    let side = (TESTS / tests_per_pixel).isqrt() as u32;
+    // A multiple of the workgroup's side leaves no invocations idle at the tile's edge.
+    max.min((side / 8 * 8).max(64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::tile_side;
+
+    #[test]
+    fn heavy_scenes_take_small_tiles_and_light_ones_the_largest() {
+        assert_eq!(tile_side(1024, 0, 1, 1), 1024);
+        assert_eq!(tile_side(1024, 8, 1, 8), 1024);
+        assert_eq!(tile_side(1024, 100, 1, 20), 256);
+        assert_eq!(tile_side(1024, 100, 1, 1000), 64);
+        assert_eq!(tile_side(7, 100, 1, 1000), 7);
+    }
+}
