@@ -60,6 +60,7 @@ void SEARCH(Beam beam, bool is_searching, inout Found found) {
         for (;;) {
             uint leaves;
             bool are_leaves_backwards;
+            Entries entries;
             for (;;) {
                 turns++;
                 uint bit = left.x != 0u ? uint(findLSB(left.x)) : 32u + uint(findLSB(left.y));
@@ -72,14 +73,15 @@ void SEARCH(Beam beam, bool is_searching, inout Found found) {
                 uint first = rows[1];
                 [[unroll]] for (uint h = 2u; h <= 6u; h++) first = h <= LEVELS && level == h ? rows[h] : first;
                 uint order;
-                uint met = boxes_met(first + 16u * group, beam, found.limit, order);
+                entries = enter_boxes(first + 16u * group, beam, order);
+                leaves = boxes_ahead(entries, found.limit);
                 are_leaves_backwards = heading[order] < 0.0;
-                met = are_leaves_backwards ? bitfieldReverse(met) >> 24 : met;
+                uint met = are_leaves_backwards ? bitfieldReverse(leaves) >> 24 : leaves;
                 uint backwards_bit = 1u << (level - 1u);
                 backwards = are_leaves_backwards ? backwards | backwards_bit : backwards & ~backwards_bit;
                 // Of level 1, `shift` has no meaning.
                 uint shift = 8u * (level - 2u);
-                leaves = level == 1u ? met : 0u;
+                leaves = level == 1u ? leaves : 0u;
                 left.x |= level > 1u && shift < 32u ? met << shift : 0u;
                 if (LEVELS > 5u) left.y |= level > 1u && shift >= 32u ? met << (shift - 32u) : 0u;
                 if (leaves != 0u || (left.x | left.y) == 0u) break;
@@ -88,10 +90,12 @@ void SEARCH(Beam beam, bool is_searching, inout Found found) {
             for (;;) {
                 turns++;
                 bool is_leaf = leaves != 0u;
-                uint place = is_leaf ? uint(findLSB(leaves)) : 0u;
-                leaves &= leaves - 1u;
-                uint group = 8u * path + (are_leaves_backwards ? 7u - place : place);
-                TRY_EIGHT(items, group, first_group, is_leaf, beam, found);
+                uint place = uint(are_leaves_backwards ? findMSB(leaves) : findLSB(leaves));
+                place = is_leaf ? place : 0u;
+                leaves &= ~(1u << place);
+                TRY_EIGHT(items, 8u * path + place, first_group, is_leaf, beam, found);
+                // What was met for sure hides what lies behind it.
+                leaves &= boxes_ahead(entries, found.limit);
                 if (leaves == 0u) break;
             }
             bool ends = (left.x | left.y) == 0u || turns >= LOOP_TURNS;

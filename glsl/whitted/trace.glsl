@@ -15,10 +15,10 @@ Ray primary_ray(uvec2 pixel, uvec2 size, View view) {
     return Ray(Real3(0.0), unit(direction));
 }
 
-// The nearest light whose ball the ray meets, or NOTHING, and where.
-uint light_ball_ahead(Ray ray, out Real t) {
-    uint seen = NOTHING;
-    t = LARGEST;
+// Where the ray meets the nearest ball of a light, and its intensity; at LARGEST, nothing.
+Real light_ball_ahead(Ray ray, out Real3 intensity) {
+    intensity = Real3(0.0);
+    Real t = LARGEST;
     uint i = 0u;
     for (;;) {
         turns++;
@@ -26,12 +26,12 @@ uint light_ball_ahead(Ray ray, out Real t) {
         Hit ball;
         bool is_met = meet(Sphere(light.position, light.ball_radius), ray, FREE, CURVED, ball);
         bool is_seen = i < frame.light_count && is_met && ball.t < t;
-        seen = is_seen ? i : seen;
+        if (is_seen) intensity = light.intensity;
         t = is_seen ? ball.t : t;
         i++;
         if (!(i < frame.light_count)) break;
     }
-    return seen;
+    return t;
 }
 
 // What a ray is cast for.
@@ -51,8 +51,8 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
     uint generation = 0u;
     uint purpose = is_there ? TO_NEAREST : ENDED;
     Departure departure = Departure(NOTHING, CURVED, false);
-    Real ball_t;
-    uint ball = light_ball_ahead(ray, ball_t);
+    Real3 ball_intensity;
+    Real ball_t = light_ball_ahead(ray, ball_intensity);
 
     // The nearest hit so far of the ray, and then what its lights add up to.
     Hit nearest;
@@ -107,7 +107,7 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
             bool is_last = !is_light && (!is_hit || (generation == 0u && ball_t < nearest.t));
             if (is_light && !is_hidden) emitted = limited(emitted + sent);
             if (is_last) {
-                Real3 seen = generation == 0u && ball != NOTHING ? light(ball).intensity : background;
+                Real3 seen = generation == 0u && ball_t < LARGEST ? ball_intensity : background;
                 color = limited(color + weight * seen);
             }
             if (!is_light && !is_last) {
