@@ -58,6 +58,7 @@ void SEARCH(Beam beam, bool is_searching, inout Found found) {
         uint path = 0u; // the group of level 1 that was gone into last, or the first below the one of a higher level
 
         for (;;) {
+            turns++;
             uint leaves;
             bool are_leaves_backwards;
             Entries entries;
