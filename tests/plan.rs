@@ -337,3 +337,14 @@ fn every_line_is_one_and_says_why() {
         }
     }
 }
+
+#[test]
+fn a_hierarchy_has_few_boxes_on_top_and_no_more_levels_than_the_kernel_goes_down() {
+    assert_eq!(Structure::over(32), Structure::None);
+    assert_eq!(Structure::over(33), Structure::Hierarchy { levels: 1 });
+    assert_eq!(Structure::over(256), Structure::Hierarchy { levels: 1 });
+    assert_eq!(Structure::over(1_000_000), Structure::Hierarchy { levels: 5 });
+    let most = zerkalo::scene::PRIMITIVE_LIMIT;
+    assert_eq!(Structure::over(most), Structure::Hierarchy { levels: Structure::MOST_LEVELS });
+    assert!(most.div_ceil(Structure::GROUP.pow(Structure::MOST_LEVELS)) <= 64);
+}

@@ -103,11 +103,14 @@ impl Structure {
     /// Solids in a box, and boxes in one of the level above.
     pub const GROUP: usize = 8;
 
+    /// What the kernel can go down: enough for [`PRIMITIVE_LIMIT`](crate::scene::PRIMITIVE_LIMIT) solids under 64 boxes.
+    pub const MOST_LEVELS: u32 = 6;
+
     /// Over the solids of one kind.
     pub fn over(solids: usize) -> Self {
         let mut boxes = solids;
         let mut levels = 0;
-        while boxes > Self::BREAK_EVEN {
+        while boxes > Self::BREAK_EVEN && levels < Self::MOST_LEVELS {
             boxes = boxes.div_ceil(Self::GROUP);
             levels += 1;
         }
