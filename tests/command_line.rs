@@ -404,7 +404,8 @@ fn gallery_lists_every_name_and_writes_the_committed_files() {
     let place = Place::new();
     let run = place.run(&["gallery"]);
     let listed: Vec<_> = run.stdout.lines().filter_map(|line| line.split_whitespace().next()).collect();
-    let names: Vec<_> = gallery::entries().into_iter().map(|entry| entry.name).collect();
+    let entries = gallery::entries().into_iter().chain(gallery::families());
+    let names: Vec<_> = entries.map(|entry| entry.name).collect();
     assert_eq!(listed, names);
 
     let run = place.run(&["gallery", "--write", "scenes"]);

@@ -101,3 +101,39 @@ fn figure_scenes_are_what_the_course_shows() {
     assert!(start.primitives.is_empty());
     assert_eq!(start.camera.position, DVec3::new(0.0, 0.0, -2.0));
 }
+
+#[test]
+fn families_have_a_valid_scene_of_any_number_up_to_a_million() {
+    for name in ["squares-1", "squares-99", "cloud-1", "cloud-500", "cloud-cone-77", "cloud-cylinder-3"] {
+        made(name).validate().unwrap_or_else(|error| panic!("{name}: {error}"));
+        let count: usize = name.rsplit_once('-').unwrap().1.parse().unwrap();
+        assert_eq!(made(name).primitives.len(), count, "{name}");
+        assert!(gallery::has(name));
+    }
+    assert!(gallery::has("squares-1000000"));
+    let refused =
+        ["squares-0", "squares-1000001", "squares-", "squares-+7", "squares-007", "squares--7", "cloud-ball-7"];
+    for name in refused.into_iter().chain(["cloud-cone-", "cloud--7", "squares-N", "squares-99999999999999999999"]) {
+        assert!(!gallery::has(name) && gallery::scene(name).is_none(), "{name}");
+    }
+}
+
+#[test]
+fn squares_are_the_grid_of_table_4_1_where_that_is_one() {
+    assert_eq!(made("squares-100"), made("grid-sphere-100"));
+    let last = made("squares-1000").primitives[999].solid.position();
+    assert_eq!(last, 2.0 * DVec3::new(31.0, 0.0, 7.0), "rows of 32");
+}
+
+#[test]
+fn clouds_are_the_same_every_time_and_of_the_kinds_they_name() {
+    let mixed = made("cloud-2000");
+    assert_eq!(mixed, made("cloud-2000"));
+    for kind in SolidKind::ALL {
+        let of_kind = |scene: &Scene| scene.primitives.iter().filter(|p| p.solid.kind() == kind).count();
+        assert!((400..600).contains(&of_kind(&mixed)), "{kind:?}");
+        assert_eq!(of_kind(&made(&format!("cloud-{}-50", kind.name()))), 50);
+    }
+    let apart: HashSet<String> = mixed.primitives.iter().map(|p| format!("{:?}", p.solid.position())).collect();
+    assert_eq!(apart.len(), 2000);
+}

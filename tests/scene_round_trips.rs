@@ -19,6 +19,8 @@ fn assert_round_trips(scene: &Scene) {
     let json = scene.to_json();
     let back = Scene::from_json(&json).unwrap_or_else(|error| panic!("{error}\n{json}"));
     assert_eq!(bits(&back), bits(scene), "{json}");
+    let back = Scene::from_zscene(&scene.to_zscene()).unwrap_or_else(|error| panic!("{error}\n{json}"));
+    assert_eq!(bits(&back), bits(scene), "{json}");
     serde_json::from_str::<serde_json::Value>(&json).unwrap_or_else(|error| panic!("{error}\n{json}"));
 }
 
@@ -128,7 +130,7 @@ proptest! {
     #![proptest_config(ProptestConfig::with_cases(500))]
 
     #[test]
-    fn any_valid_scene_survives_both_formats_to_the_bit(scene in any_scene()) {
+    fn any_valid_scene_survives_every_form_to_the_bit(scene in any_scene()) {
         scene.validate().unwrap();
         assert_round_trips(&scene);
     }
@@ -250,13 +252,13 @@ fn toml_leaves_defaults_out_and_json_does_not() {
 fn saved_files_load_again_by_their_extension_in_any_case() {
     let folder = tempfile::tempdir().unwrap();
     let scene = Scene { max_depth: 3, ..Scene::default() };
-    for name in ["a.toml", "b.json", "c.TOML", "d.Json", "имя с пробелом.toml"] {
+    for name in ["a.toml", "b.json", "c.TOML", "d.Json", "имя с пробелом.toml", "e.zscene"] {
         let path = folder.path().join(name);
         scene.save(&path).unwrap();
         assert_eq!(Scene::load(&path).unwrap(), scene, "{name}");
     }
     assert!(fs::read_to_string(folder.path().join("d.Json")).unwrap().starts_with('{'));
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 5, "temporary files were left");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 6, "temporary files were left");
 }
 
 #[test]

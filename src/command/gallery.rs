@@ -11,7 +11,7 @@ use crate::scene::gallery;
 /// List the ready scenes, or write them as files
 #[derive(Debug, Clone, Args)]
 pub struct GalleryArgs {
-    /// Write every scene to DIR/NAME.toml
+    /// Write every scene but those of N solids to DIR/NAME.toml
     #[arg(long, value_name = "DIR")]
     pub write: Option<PathBuf>,
 }
@@ -21,5 +21,6 @@ pub fn run(args: &GalleryArgs) -> Result<()> {
         std::fs::create_dir_all(folder).with_context(|| format!("could not create folder {}", folder.display()))?;
         return Ok(gallery::write_all(folder)?);
     }
-    gallery::entries().iter().try_for_each(|entry| print_line(&format!("{:16} {}", entry.name, entry.english)))
+    let mut entries = gallery::entries().into_iter().chain(gallery::families());
+    entries.try_for_each(|entry| print_line(&format!("{:16} {}", entry.name, entry.english)))
 }

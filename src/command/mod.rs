@@ -1,6 +1,7 @@
 //! One file a subcommand, each a few lines over the library.
 
 pub mod compare;
+pub mod convert;
 pub mod devices;
 pub mod fps;
 pub mod gallery;
@@ -35,6 +36,7 @@ pub enum Command {
     Fps(fps::FpsArgs),
     Devices(devices::DevicesArgs),
     Gallery(gallery::GalleryArgs),
+    Convert(convert::ConvertArgs),
 }
 
 impl Command {
@@ -48,6 +50,7 @@ impl Command {
             Self::Fps(args) => fps::run(args),
             Self::Devices(args) => devices::run(args),
             Self::Gallery(args) => gallery::run(args),
+            Self::Convert(args) => convert::run(args),
         }
     }
 }

@@ -12,7 +12,7 @@ use crate::plan::{Bounds, Cuts, Limits, Line, Plan, Wishes};
 /// Tell what will run for a scene, what is left out and why, and what that saves
 #[derive(Debug, Clone, Args)]
 pub struct PlanArgs {
-    /// A scene file (.toml, .json) or a name of `zerkalo gallery`
+    /// A scene file (.toml, .json, .zscene) or a name of `zerkalo gallery`
     pub scene: String,
     /// Largest allowed change of any linear channel, such as 0.002 or 1/510; 0 is exact
     #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error)]

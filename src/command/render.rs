@@ -48,7 +48,7 @@ pub enum Precision {
 /// Render a scene into a PNG (display values) or EXR (linear values) file
 #[derive(Debug, Clone, Args)]
 pub struct RenderArgs {
-    /// A scene file (.toml, .json) or a name of `zerkalo gallery`
+    /// A scene file (.toml, .json, .zscene) or a name of `zerkalo gallery`
     pub scene: String,
     /// The picture to write: .png or .exr
     #[arg(short, long, value_name = "OUT")]

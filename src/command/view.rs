@@ -15,7 +15,7 @@ use crate::viewer::{self, Document, Options};
 /// Open the window on a scene
 #[derive(Debug, Clone, Args)]
 pub struct ViewArgs {
-    /// A scene file (.toml, .json) or a name of `zerkalo gallery`, such as `start`
+    /// A scene file (.toml, .json, .zscene) or a name of `zerkalo gallery`, such as `start`
     #[arg(default_value = "showcase")]
     pub scene: String,
     #[command(flatten)]
@@ -42,7 +42,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         return Err(TracerError::Refused(reason.to_owned()).into());
     }
     let scene = scene_named(&args.scene)?;
-    let is_file = gallery::scene(&args.scene).is_none();
+    let is_file = !gallery::has(&args.scene);
     let document = Document::new(scene, is_file.then(|| PathBuf::from(&args.scene)));
     let options = Options {
         device: args.device.device.clone(),

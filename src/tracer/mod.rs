@@ -3,7 +3,7 @@
 mod canvas;
 mod chunks;
 mod course;
-mod hierarchy;
+pub mod hierarchy;
 mod live_kernel;
 mod outlines;
 pub mod probe;
@@ -20,6 +20,7 @@ use glam::DVec3;
 
 pub use canvas::Canvas;
 pub use course::{BINDINGS, MAX_PRIMITIVES, WORKGROUP, upload};
+pub use outlines::bounds;
 pub use records::{
     BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MaterialRecord, PrimitiveRecords, SphereRecord,
 };
@@ -103,6 +104,9 @@ pub struct Settings {
     pub kernel: Kernel,
     /// What is left out; the course kernel leaves out nothing.
     pub cuts: Cuts,
+    /// The accurate kernel goes down no boxes: each ray looks at every solid. Slow; what the boxes may not change is
+    /// tested against it.
+    pub without_boxes: bool,
 }
 
 impl Settings {
@@ -116,6 +120,7 @@ impl Settings {
             workgroup: WORKGROUP,
             kernel: Kernel::Course,
             cuts: Cuts::NONE,
+            without_boxes: false,
         }
     }
 
@@ -129,6 +134,7 @@ impl Settings {
             workgroup: plan.workgroup.choice,
             kernel: Kernel::Whitted(plan.precision.choice),
             cuts: plan.cuts,
+            without_boxes: false,
         }
     }
 }

@@ -21,15 +21,16 @@ impl SceneKernel {
     /// # Errors
     /// The kernel cannot take the scene on this device.
     pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings, max_depth: u32) -> Result<Self, TracerError> {
-        let &Settings { width, height, workgroup, cuts, .. } = settings;
+        let workgroup = settings.workgroup;
         Ok(match settings.kernel {
             Kernel::Course => {
-                let CourseScene { frame, primitives } = CourseScene::new(scene, max_depth, [width, height])?;
+                let size = [settings.width, settings.height];
+                let CourseScene { frame, primitives } = CourseScene::new(scene, max_depth, size)?;
                 let kernel = CourseKernel::new(device, &shaders::COURSE, primitives, max_depth, workgroup)?;
                 Self::Course { kernel, frame: Box::new(frame) }
             }
             Kernel::Plain | Kernel::Whitted(_) => {
-                let scene = WhittedScene::new(device, scene, settings.kernel, cuts, max_depth, [width, height])?;
+                let scene = whitted_scene(device, scene, settings, max_depth)?;
                 let pipeline = WhittedPipeline::new(device, &scene, workgroup)?;
                 Self::Whitted { pipeline, arrays: scene.upload(device)?, frame: scene.frame }
             }
@@ -47,10 +48,10 @@ impl SceneKernel {
         settings: &Settings,
         max_depth: u32,
     ) -> Result<(), TracerError> {
-        let &Settings { width, height, kernel, workgroup, cuts, .. } = settings;
+        let &Settings { kernel, workgroup, .. } = settings;
         match self {
             Self::Whitted { pipeline, arrays, frame } if kernel != Kernel::Course => {
-                let scene = WhittedScene::new(device, scene, kernel, cuts, max_depth, [width, height])?;
+                let scene = whitted_scene(device, scene, settings, max_depth)?;
                 let new_arrays = scene.upload(device)?;
                 if !pipeline.fits(&scene, workgroup) {
                     *pipeline = WhittedPipeline::new(device, &scene, workgroup)?;
@@ -100,4 +101,15 @@ impl SceneKernel {
             }
         }
     }
+}
+
+fn whitted_scene(
+    device: &Device,
+    scene: &Scene,
+    settings: &Settings,
+    max_depth: u32,
+) -> Result<WhittedScene, TracerError> {
+    let &Settings { width, height, kernel, cuts, without_boxes, .. } = settings;
+    let scene = WhittedScene::new(device, scene, kernel, cuts, max_depth, [width, height])?;
+    Ok(if without_boxes { scene.without_boxes() } else { scene })
 }

@@ -251,6 +251,12 @@ impl WhittedScene {
         Ok(Self { kernel, records, requirements, frame, background: scene.background.as_vec3().to_array() })
     }
 
+    /// For [`Settings::without_boxes`](super::Settings).
+    pub fn without_boxes(mut self) -> Self {
+        self.requirements.levels = [0; 4];
+        self
+    }
+
     pub fn upload(&self, device: &Arc<Device>) -> Result<Vec<Resource>, GpuError> {
         upload(device, &self.records, self.kernel.precision())
     }

@@ -1,5 +1,7 @@
-//! Scene files: TOML for people, JSON for programs, one data model and one decoder.
+//! Scene files: TOML for people and JSON for programs, with one decoder; and bytes for what is too large for text.
+//! One data model, one set of rules.
 
+mod binary;
 mod decode;
 mod tree;
 mod write;
@@ -7,6 +9,7 @@ mod write;
 use std::fs::{self, File};
 use std::io::{self, Read, Write};
 use std::path::Path;
+use std::string::FromUtf8Error;
 
 use self::tree::{Document, Node};
 use super::error::SceneErrorCause;
@@ -14,26 +17,33 @@ use super::validate::{self, Place, Violation};
 use super::{Scene, SceneError};
 use crate::whole_file::WholeFile;
 
-/// The two kinds of scene file; the extension decides.
+/// The kinds of scene file; the extension decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum FileKind {
+    Text(Format),
+    Zscene,
+}
+
+/// Of text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Format {
     Toml,
     Json,
 }
 
-/// What is wrong in the text of a file.
+/// What is wrong in a file.
 struct Fault {
-    /// Bytes from the start of the text.
+    /// Bytes from the start.
     offset: usize,
     what: String,
 }
 
 impl Scene {
-    /// Reads a `.toml` or `.json` file; the scene is valid.
+    /// Reads a `.toml`, `.json` or `.zscene` file; the scene is valid.
     pub fn load(path: &Path) -> Result<Self, SceneError> {
         let in_file = |error: SceneError| SceneError { path: Some(path.to_owned()), ..error };
-        let (format, source) = read(path).map_err(|what| in_file(SceneError::refused(what)))?;
-        format.decode(&source).map_err(in_file)
+        let (kind, content) = read(path).map_err(|what| in_file(SceneError::refused(what)))?;
+        kind.decode(content).map_err(in_file)
     }
 
     /// Reads a scene from the text of a TOML file; the scene is valid.
@@ -46,39 +56,65 @@ impl Scene {
         Format::Json.decode(source)
     }
 
-    /// Writes a `.toml` or `.json` file, whole or not at all; an invalid scene is refused.
+    /// Reads a scene from the bytes of a `.zscene` file; the scene is valid.
+    pub fn from_zscene(bytes: &[u8]) -> Result<Self, SceneError> {
+        FileKind::Zscene.check_size(bytes.len() as u64).map_err(SceneError::refused)?;
+        let in_bytes = |Fault { offset, what }: Fault| SceneError::refused(format!("byte {offset}: {what}"));
+        let scene = binary::decode(bytes).map_err(in_bytes)?;
+        scene.validate()?;
+        Ok(scene)
+    }
+
+    /// The scene as bytes of a `.zscene` file; reads back to the bit if the scene is valid.
+    pub fn to_zscene(&self) -> Vec<u8> {
+        binary::encode(self)
+    }
+
+    /// Writes a `.toml`, `.json` or `.zscene` file, whole or not at all; an invalid scene is refused.
     pub fn save(&self, path: &Path) -> Result<(), SceneError> {
         let in_file = |error: SceneError| SceneError { path: Some(path.to_owned()), ..error };
         self.validate().map_err(in_file)?;
-        let format = Format::of(path).map_err(|what| in_file(SceneError::refused(what)))?;
-        let text = match format {
-            Format::Toml => self.to_toml(),
-            Format::Json => self.to_json(),
+        let kind = FileKind::of(path).map_err(|what| in_file(SceneError::refused(what)))?;
+        let content = match kind {
+            FileKind::Text(Format::Toml) => self.to_toml().into_bytes(),
+            FileKind::Text(Format::Json) => self.to_json().into_bytes(),
+            FileKind::Zscene => self.to_zscene(),
         };
-        format.check_size(text.len() as u64).map_err(|what| in_file(SceneError::refused(what)))?;
-        write(path, text.as_bytes()).map_err(|error| SceneError {
+        kind.check_size(content.len() as u64).map_err(|what| in_file(SceneError::refused(what)))?;
+        write(path, &content).map_err(|error| SceneError {
             cause: SceneErrorCause::Disk,
             ..in_file(SceneError::refused(format!("could not be written: {error}")))
         })
     }
 }
 
-impl Format {
+impl FileKind {
     fn of(path: &Path) -> Result<Self, String> {
         let extension = path.extension().unwrap_or_default().to_ascii_lowercase();
         match extension.to_str() {
-            Some("toml") => Ok(Self::Toml),
-            Some("json") => Ok(Self::Json),
-            _ => Err("a scene file's name must end in .toml or .json".to_owned()),
+            Some("toml") => Ok(Self::Text(Format::Toml)),
+            Some("json") => Ok(Self::Text(Format::Json)),
+            Some("zscene") => Ok(Self::Zscene),
+            _ => Err("a scene file's name must end in .toml, .json or .zscene".to_owned()),
         }
     }
 
     /// Largest file, bytes: about 120 thousand primitives in TOML and 500 thousand in JSON, which take 0.5 GB to read.
-    /// The worst that the parsers can be given in that many bytes makes them take 1.9 GB.
+    /// The worst that the parsers can be given in that many bytes makes them take 1.9 GB. Bytes are read into a scene
+    /// of at most twice their size, and as many as that hold all the primitives that a scene may have.
     fn largest(self) -> u64 {
         match self {
-            Self::Toml => 16 << 20,
-            Self::Json => 64 << 20,
+            Self::Text(Format::Toml) => 16 << 20,
+            Self::Text(Format::Json) => 64 << 20,
+            Self::Zscene => 4 << 30,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Text(Format::Toml) => "Toml",
+            Self::Text(Format::Json) => "Json",
+            Self::Zscene => "Zscene",
         }
     }
 
@@ -86,11 +122,27 @@ impl Format {
         if size <= self.largest() {
             return Ok(());
         }
-        Err(format!("{size} bytes: a {self:?} scene file may have at most {} bytes", self.largest()))
+        let too_large = format!("{size} bytes: a {} scene file may have at most {} bytes", self.name(), self.largest());
+        Err(match self {
+            Self::Text(_) => too_large + "; a .zscene file holds more",
+            Self::Zscene => too_large,
+        })
     }
 
+    fn decode(self, content: Vec<u8>) -> Result<Scene, SceneError> {
+        match self {
+            Self::Zscene => Scene::from_zscene(&content),
+            Self::Text(format) => {
+                let not_text = |error: FromUtf8Error| format!("is not UTF-8 text: {}", error.utf8_error());
+                format.decode(&String::from_utf8(content).map_err(not_text).map_err(SceneError::refused)?)
+            }
+        }
+    }
+}
+
+impl Format {
     fn decode(self, source: &str) -> Result<Scene, SceneError> {
-        self.check_size(source.len() as u64).map_err(SceneError::refused)?;
+        FileKind::Text(self).check_size(source.len() as u64).map_err(SceneError::refused)?;
         // Some editors put a byte order mark before UTF-8.
         let source = source.strip_prefix('\u{feff}').unwrap_or(source);
         let decoded = match self {
@@ -145,24 +197,23 @@ fn locate<'t>(root: Node<'t>, violation: &Violation<'_>) -> Node<'t> {
     node
 }
 
-fn read(path: &Path) -> Result<(Format, String), String> {
+fn read(path: &Path) -> Result<(FileKind, Vec<u8>), String> {
     let unreadable = |error: io::Error| format!("could not be read: {error}");
     let metadata = fs::metadata(path).map_err(unreadable)?;
     if metadata.is_dir() {
         return Err("is a folder, not a scene file".to_owned());
     }
-    let format = Format::of(path)?;
+    let kind = FileKind::of(path)?;
     // A pipe could keep the reader waiting, a device could be endless.
     if !metadata.is_file() {
         return Err("is not a regular file".to_owned());
     }
-    format.check_size(metadata.len())?;
+    kind.check_size(metadata.len())?;
     let mut bytes = Vec::new();
     // The file may have grown since its size was asked.
     let file = File::open(path).map_err(unreadable)?;
-    file.take(format.largest() + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    let source = String::from_utf8(bytes).map_err(|error| format!("is not UTF-8 text: {}", error.utf8_error()))?;
-    Ok((format, source))
+    file.take(kind.largest() + 1).read_to_end(&mut bytes).map_err(unreadable)?;
+    Ok((kind, bytes))
 }
 
 fn write(path: &Path, content: &[u8]) -> io::Result<()> {

@@ -121,15 +121,20 @@ pub(super) fn several() -> Scene {
     course_scene(camera, DVec3::new(0.3, 2.5, -3.0), primitives)
 }
 
-/// Table 4.1: the camera was fitted to figure 4.1, which shows 90 spheres.
+/// Table 4.1: rows of ten.
 pub(super) fn grid(kind: SolidKind, count: usize) -> Scene {
+    rows(kind, count, 10)
+}
+
+/// Solids in rows of so many, as table 4.1 has them: the camera was fitted to figure 4.1, which shows 90 spheres.
+pub(super) fn rows(kind: SolidKind, count: usize, row: usize) -> Scene {
     let camera = course_camera(
         DVec3::new(2.7252345224208216, 4.0987636075718665, -4.858739727979396),
         DVec3::new(0.03923503759629459, -0.1632759938225424, 0.9857999602688561),
     );
     let primitives = (0..count).map(|i| {
         let mut primitive = Primitive::course_default(kind);
-        primitive.solid.move_to(2.0 * DVec3::new((i / 10) as f64, 0.0, (i % 10) as f64));
+        primitive.solid.move_to(2.0 * DVec3::new((i / row) as f64, 0.0, (i % row) as f64));
         primitive
     });
     course_scene(camera, DVec3::new(1.0, 2.0, 0.0), primitives.collect())

@@ -1,14 +1,19 @@
-//! Ready scenes: the program's own showcase, the figures of the course work and the grids of its table 4.1.
+//! Ready scenes: the program's own showcase, the figures of the course work and the grids of its table 4.1;
+//! and families of scenes that have any number of solids.
 //!
-//! They are made here and written to `scenes/`, so that they can be drawn without the files and read without the
+//! All but the families are made here and written to `scenes/`, so that they can be drawn without the files and read without the
 //! program.
 
+mod families;
 mod figures;
 mod showcase;
 
 use std::path::Path;
 
+pub use families::FAMILY_LIMIT;
+
 use super::{Scene, SceneError, SolidKind};
+use families::Member;
 
 /// A scene of the gallery.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,12 +31,22 @@ pub fn entries() -> Vec<Entry> {
     makers().into_iter().map(|(entry, _)| entry).collect()
 }
 
-/// The scene called `name`.
-pub fn scene(name: &str) -> Option<Scene> {
-    makers().into_iter().find(|(entry, _)| entry.name == name).map(|(_, maker)| maker.make())
+/// The families: in their names, N stands for a number and KIND for one of the four.
+pub fn families() -> Vec<Entry> {
+    families::entries()
 }
 
-/// Writes every scene to `folder/NAME.toml`.
+/// Whether there is a scene called `name`.
+pub fn has(name: &str) -> bool {
+    maker(name).is_some()
+}
+
+/// The scene called `name`, of a family too.
+pub fn scene(name: &str) -> Option<Scene> {
+    maker(name).map(Maker::make)
+}
+
+/// Writes every scene but those of the families to `folder/NAME.toml`.
 pub fn write_all(folder: &Path) -> Result<(), SceneError> {
     makers().into_iter().try_for_each(|(entry, maker)| maker.make().save(&folder.join(entry.name + ".toml")))
 }
@@ -41,6 +56,7 @@ type MakeScene = fn() -> Scene;
 enum Maker {
     Single(MakeScene),
     Grid(SolidKind, usize),
+    Family(Member),
 }
 
 impl Maker {
@@ -48,8 +64,14 @@ impl Maker {
         match self {
             Self::Single(make) => make(),
             Self::Grid(kind, count) => figures::grid(kind, count),
+            Self::Family(member) => member.make(),
         }
     }
+}
+
+fn maker(name: &str) -> Option<Maker> {
+    let family = Member::named(name).map(Maker::Family);
+    family.or_else(|| makers().into_iter().find(|(entry, _)| entry.name == name).map(|(_, maker)| maker))
 }
 
 fn makers() -> Vec<(Entry, Maker)> {

@@ -32,10 +32,10 @@ pub enum FileAnswer {
     Cancel,
 }
 
-const SCENE_EXTENSIONS: [&str; 2] = ["toml", "json"];
-const PICTURE_EXTENSIONS: [&str; 2] = ["png", "exr"];
+const SCENE_EXTENSIONS: &[&str] = &["toml", "json", "zscene"];
+const PICTURE_EXTENSIONS: &[&str] = &["png", "exr"];
 
-fn extensions(purpose: FilePurpose) -> [&'static str; 2] {
+fn extensions(purpose: FilePurpose) -> &'static [&'static str] {
     match purpose {
         FilePurpose::Open | FilePurpose::Save => SCENE_EXTENSIONS,
         FilePurpose::Screenshot => PICTURE_EXTENSIONS,
@@ -184,7 +184,7 @@ impl FileDialog {
         let is_saving = purpose != FilePurpose::Open;
         self.fault = if name.is_empty() {
             Some(dialogs.file_name_missing)
-        } else if !has_extension(&path, &extensions) {
+        } else if !has_extension(&path, extensions) {
             let is_picture = purpose == FilePurpose::Screenshot;
             Some(if is_picture { dialogs.picture_extension } else { dialogs.scene_extension })
         } else if !is_saving && !path.exists() {
@@ -221,7 +221,7 @@ impl FileDialog {
 
     fn list(&mut self, words: &Words) {
         let extensions = self.purpose.map_or(SCENE_EXTENSIONS, extensions);
-        let listing = Listing::read(&self.folder, &extensions);
+        let listing = Listing::read(&self.folder, extensions);
         self.fault = listing.as_ref().err().map(|error| format!("{} {error}", words.dialogs.folder_unreadable));
         self.listing = listing.unwrap_or_default();
     }

@@ -116,7 +116,7 @@ pub(super) static WORDS: Words = Words {
         file_name_missing: "Type a file name.",
         no_such_file: "There is no such file.",
         no_such_folder: "There is no such folder.",
-        scene_extension: "The name of a scene file must end in .toml or .json.",
+        scene_extension: "The name of a scene file must end in .toml, .json or .zscene.",
         picture_extension: "The name of a screenshot must end in .png or .exr.",
         folder_unreadable: "The folder cannot be read:",
         replace_question: "There is such a file already. Replace it?",

@@ -120,7 +120,7 @@ pub(super) static WORDS: Words = Words {
         file_name_missing: "Введите имя файла.",
         no_such_file: "Такого файла нет.",
         no_such_folder: "Такой папки нет.",
-        scene_extension: "Имя файла сцены должно оканчиваться на .toml или .json.",
+        scene_extension: "Имя файла сцены должно оканчиваться на .toml, .json или .zscene.",
         picture_extension: "Имя файла снимка должно оканчиваться на .png или .exr.",
         folder_unreadable: "Папка не читается:",
         replace_question: "Такой файл уже есть. Заменить его?",
