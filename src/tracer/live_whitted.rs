@@ -180,7 +180,7 @@ mod tests {
     #[test]
     fn neighbours_that_differ_are_one_part() {
         assert_eq!(runs(&[1, 2, 3, 4, 5], &[1, 0, 0, 4, 0]), Some(vec![1..3, 4..5]));
-        assert_eq!(runs(&[0.0], &[-0.0]), Some(vec![0..1]), "by their bits");
+        assert_eq!(runs(&[0.0, 1.0, 1.0], &[-0.0, 1.0, 2.0]), Some(vec![0..1, 2..3]), "by their bits");
         assert_eq!(runs(&[1, 2], &[1, 2]), Some(vec![]));
         assert_eq!(runs(&[1, 2], &[1]), None);
     }
