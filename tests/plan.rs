@@ -229,7 +229,7 @@ fn a_scene_fits_the_device_exactly_where_the_kernels_records_do() {
         for precision in [Precision::F32, Precision::F64] {
             let row_bytes = if precision == Precision::F32 { 16 } else { 32 };
             let records = WhittedRecords::of(&scene, KernelFrame::of(&scene), precision, [8, 8]);
-            let outlines = records.outlines.len() as u64 * 16;
+            let outlines = records.solids.outlines.len() as u64 * 16;
             let own = records.buffers().map(|(_, rows)| rows.len() as u64 * row_bytes);
             let largest = own.into_iter().chain([outlines]).max().unwrap();
             let wishes = Wishes { precision: Some(precision), ..Wishes::exact(8, 8) };

@@ -56,7 +56,7 @@ void main() {
         uint left = probed.departure == 0.0 ? slot : NOTHING - 1u;
         departure = Departure(left, uint(probed.face), probed.inside == 1.0);
     }
-    Ray ray = Ray(probed.origin, probed.direction);
+    Ray ray = Ray(probed.origin, Real3(0.0), probed.direction);
     Hit hit;
     bool is_met = meet(slot, ray, departure, hit);
     bool is_own = departure.slot == slot;

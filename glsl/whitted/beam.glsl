@@ -11,7 +11,8 @@ const float FAR = 3.4028234663852886e38;
 const float FLOAT_ROUNDOFF = 5.9604644775390625e-8;
 
 // What a computed position may be off: differences and products of numbers up to 4 * frame.reach, rounded a few times,
-// and for the double kernel the rounding of rays and outlines to float.
+// and the rounding to float of the camera, of a unit of FLOAT_ROUNDOFF * frame.reach, and for the double kernel of all rays
+// and outlines.
 float place_error() { return 16.0 * FLOAT_ROUNDOFF * frame.reach; }
 
 struct Beam {

@@ -7,8 +7,12 @@ const float CHORD_ERROR = 32.0 * FLOAT_ROUNDOFF;
 #if REAL_BITS == 64
 // And by the rounding of centre and ray to float, at distances of up to 4 * frame.reach. An outline has it in its square.
 float chord_rounding() { return 64.0 * FLOAT_ROUNDOFF * frame.reach * frame.reach; }
+float camera_error() { return 0.0; }
 #else
 float chord_rounding() { return 0.0; }
+// How far rounding moves the camera, whose coordinates are below 2 * frame.reach: half a unit in the last place of each. A
+// sphere's outline has it in its radius; the place errors of other outlines are large against it.
+float camera_error() { return 2.0 * FLOAT_ROUNDOFF * frame.reach; }
 #endif
 
 // a: centre, the radius squared, rounded up.
@@ -30,9 +34,13 @@ void settle_sphere(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) 
     float chord_squared = (a.w - (1.0 - CHORD_ERROR) * distance_squared) + ahead * ahead;
     float chord = sqrt(max(chord_squared, 0.0));
     // The true half chord, squared, is less by two errors at most, and so no less than 0.77^2 of this one.
-    bool is_deep = chord_squared >= 5.0 * (CHORD_ERROR * distance_squared + chord_rounding());
+    // That of an outline with the camera's error in it, to a ray off by as much, is larger by four times that times the
+    // radius.
+    float by_radius = inversesqrt(a.w);
+    float moved = 4.0 * camera_error() * (a.w * by_radius);
+    bool is_deep = chord_squared >= 5.0 * (CHORD_ERROR * distance_squared + chord_rounding() + moved);
     // The sine of the ray to the surface is half chord by radius; the origin is outside by t times that, or more.
-    float sine = 0.77 * chord * inversesqrt(a.w);
+    float sine = 0.77 * chord * by_radius;
     bool is_ahead = (ahead - chord) * sine > HIDING_ERROR * (4.0 * frame.reach);
     settle(is_there && is_deep && is_ahead, ahead - 0.77 * chord + 2.0 * place_error(), sine, beam, found);
 }

@@ -2,7 +2,8 @@
 
 struct Ray {
     Real3 origin;
-    Real3 direction; // of length 1 to a few units in the last place
+    Real3 origin_error; // of the camera, which is no rounded point; else 0
+    Real3 direction;    // of length 1 to a few units in the last place
 };
 
 // Faces: the curved one of a sphere, cylinder or cone; of a box 1 + 2 * axis + (positive ? 1 : 0); a cylinder's ends;
@@ -55,8 +56,8 @@ struct Line {
 
 Line recentred(Ray ray, Real3 anchor, Real3 anchor_error) {
     Sum3 from_anchor = two_sum(ray.origin, -anchor);
-    // The anchor's error may be larger than what is left of the difference.
-    precise Real3 rest = from_anchor.error - anchor_error;
+    // The errors may be larger than what is left of the difference.
+    precise Real3 rest = from_anchor.error + (ray.origin_error - anchor_error);
     Sum3 origin = two_sum(from_anchor.value, rest);
     Line line;
     line.origin = origin.value;

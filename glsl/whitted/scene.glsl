@@ -1,8 +1,8 @@
 // The scene as it lies in memory: rows of four reals, so that the layout is the same for float and double.
 // src/tracer/whitted_records.rs writes them.
 //
-// Kernel frame: the world frame with the camera at its origin, times a power of two that brings the farthest reach of
-// a primitive below 2. Within a kind the solids lie in the order of its hierarchy; the kinds lie behind each other, and
+// Kernel frame: the world frame with its origin among the solids, times a power of two that brings the farthest coordinate
+// of a solid, and of the camera, below 2. Within a kind the solids lie in the order of its hierarchy; the kinds lie behind each other, and
 // a primitive's place in that row is its slot.
 
 struct Sphere {
@@ -66,6 +66,8 @@ struct View {
     Real3 ahead;
     Real window_low;      // -1: the course's window [-3,1]^2; 0: the centred window [-1,1]^2
     Real3 background;     // linear RGB
+    Real3 position;       // + position_error: of the camera
+    Real3 position_error;
 };
 
 // What a scene lacks costs nothing: the pipeline is made for what there is.
@@ -104,11 +106,12 @@ layout(binding = 7) uniform Rows material_rows;
 View view() {
     Real4 a = ROW(view_and_lights, 0u), b = ROW(view_and_lights, 1u);
     Real4 c = ROW(view_and_lights, 2u), d = ROW(view_and_lights, 3u);
-    return View(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz);
+    Real4 e = ROW(view_and_lights, 4u), f = ROW(view_and_lights, 5u);
+    return View(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz, e.xyz, f.xyz);
 }
 
 Light light(uint index) {
-    uint first = 4u + 2u * index;
+    uint first = 6u + 2u * index;
     Real4 a = ROW(view_and_lights, first), b = ROW(view_and_lights, first + 1u);
     return Light(a.xyz, a.w, b.xyz);
 }

@@ -1,6 +1,6 @@
 // A primary ray through all its generations.
 
-// The ray through the centre of a pixel counted from the top left; the camera is the kernel frame's origin.
+// The ray through the centre of a pixel counted from the top left.
 Ray primary_ray(uvec2 pixel, uvec2 size, View view) {
     // Twice the pixel centre is a whole number: exact.
     precise Real x = Real(2u * pixel.x + 1u) / Real(2u * size.x);
@@ -12,7 +12,7 @@ Ray primary_ray(uvec2 pixel, uvec2 size, View view) {
     precise Real to_left = (1.0 - 2.0 * window_x) * view.half_width;
     precise Real upward = (2.0 * window_y - 1.0) * view.half_height;
     precise Real3 direction = view.left * to_left + view.up * upward + view.ahead;
-    return Ray(Real3(0.0), unit(direction));
+    return Ray(view.position, view.position_error, unit(direction));
 }
 
 // Where the ray meets the nearest ball of a light, and its intensity; at LARGEST, nothing.
@@ -142,7 +142,7 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
             after_key = 0u;
             after_group = -1;
             if (is_lit) {
-                ray = Ray(nearest.point, light_direction);
+                ray = Ray(nearest.point, Real3(0.0), light_direction);
                 purpose = TO_LIGHT;
                 limit = up_to(light_distance);
             } else {
@@ -153,7 +153,7 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
                     generation++;
                     bool goes_further = weight > Real(frame.least_weight) && generation < frame.depth && !is_last;
                     purpose = goes_further ? TO_NEAREST : ENDED;
-                    ray = Ray(nearest.point, reflected(ray_direction, nearest.normal));
+                    ray = Ray(nearest.point, Real3(0.0), reflected(ray_direction, nearest.normal));
                     limit = FAR;
                     is_hit = false;
                 }

@@ -20,7 +20,7 @@ pub enum BufferKind {
     Storage,
     /// Written by the host before the first use, read by shaders; of any length that the device allows.
     Records,
-    /// As [`BufferKind::Records`], read by shaders as texels of four numbers.
+    /// As [`BufferKind::Uniform`], read by shaders as texels of four numbers; of any length that the device allows.
     Texels(Texel),
     /// Written by copies, read by the host.
     Readback,
@@ -54,7 +54,7 @@ impl BufferKind {
         match self {
             Self::Uniform => vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             Self::Storage | Self::Records => vk::BufferUsageFlags::STORAGE_BUFFER,
-            Self::Texels(_) => vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER,
+            Self::Texels(_) => vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             Self::Readback => vk::BufferUsageFlags::TRANSFER_DST,
             Self::Upload => vk::BufferUsageFlags::TRANSFER_SRC,
         }

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use super::chunks::Part;
 use super::course::{CourseKernel, CourseScene, WORKGROUP};
+use super::live_whitted::{LiveWhitted, WhittedState};
 use super::records::PrimitiveRecords;
-use super::whitted::{WhittedPipeline, WhittedScene};
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Shader};
-use crate::plan::{Cuts, Precision};
+use crate::plan::Precision;
 use crate::scene::{DEPTH_LIMIT, Scene};
 
 pub(super) enum LiveKernel {
@@ -16,20 +16,11 @@ pub(super) enum LiveKernel {
     Whitted(LiveWhitted),
 }
 
-/// The accurate kernel or the plain one. A state's arrays are made anew: the camera is their origin, so that nearly
-/// every change is a change of them all.
-pub(super) struct LiveWhitted {
-    kernel: Kernel,
-    device: Arc<Device>,
-    /// With the arrays, since the first state was begun.
-    begun: Option<(WhittedPipeline, Vec<Resource>)>,
-}
-
 /// A state of the scene as a kernel takes it.
 #[derive(PartialEq)]
 pub(super) enum State {
     Course(Box<CourseScene>),
-    Whitted(Box<WhittedScene>),
+    Whitted(Box<WhittedState>),
 }
 
 /// What it took to begin a picture of another state.
@@ -52,7 +43,7 @@ impl LiveKernel {
                 Self::Course(CourseKernel::new(device, course, none, DEPTH_LIMIT, WORKGROUP)?)
             }
             Kernel::Plain | Kernel::Whitted(Precision::F32 | Precision::F64) => {
-                Self::Whitted(LiveWhitted { kernel, device: device.clone(), begun: None })
+                Self::Whitted(LiveWhitted::new(device, kernel))
             }
         })
     }
@@ -67,9 +58,7 @@ impl LiveKernel {
     pub fn prepare(&self, scene: &Scene, size: [u32; 2]) -> Result<State, TracerError> {
         Ok(match self {
             Self::Course(_) => State::Course(Box::new(CourseScene::new(scene, scene.max_depth, size)?)),
-            Self::Whitted(LiveWhitted { kernel, device, .. }) => {
-                State::Whitted(Box::new(WhittedScene::new(device, scene, *kernel, Cuts::NONE, scene.max_depth, size)?))
-            }
+            Self::Whitted(live) => State::Whitted(Box::new(live.prepare(scene, size)?)),
         })
     }
 
@@ -79,7 +68,7 @@ impl LiveKernel {
             (Self::Course(kernel), State::Course(scene)) => {
                 Ok(Begun { uploaded: kernel.update(recorder, &scene.primitives), ..Begun::default() })
             }
-            (Self::Whitted(live), State::Whitted(scene)) => live.begin(scene),
+            (Self::Whitted(live), State::Whitted(state)) => live.begin(recorder, state),
             (Self::Course(_), State::Whitted(_)) | (Self::Whitted(_), State::Course(_)) => Ok(Begun::default()),
         }
     }
@@ -88,9 +77,7 @@ impl LiveKernel {
     pub fn bind(&self, picture: &Resource) -> Result<Option<Arc<BindingSet>>, GpuError> {
         match self {
             Self::Course(kernel) => kernel.bind(picture).map(Some),
-            Self::Whitted(live) => {
-                live.begun.as_ref().map(|(pipeline, arrays)| pipeline.bind(picture, arrays)).transpose()
-            }
+            Self::Whitted(live) => live.bind(picture),
         }
     }
 
@@ -98,27 +85,11 @@ impl LiveKernel {
     pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, state: &State, parts: &[Part]) {
         match (self, state) {
             (Self::Course(kernel), State::Course(scene)) => kernel.record(recorder, set, &scene.frame, parts),
-            (Self::Whitted(LiveWhitted { begun: Some((pipeline, _)), .. }), State::Whitted(scene)) => {
-                pipeline.record(recorder, set, &scene.frame, parts);
+            (Self::Whitted(live), State::Whitted(state)) => {
+                live.pipeline().iter().for_each(|pipeline| pipeline.record(recorder, set, &state.scene.frame, parts));
             }
             (Self::Course(_) | Self::Whitted(_), _) => {}
         }
-    }
-}
-
-impl LiveWhitted {
-    fn begin(&mut self, scene: &WhittedScene) -> Result<Begun, GpuError> {
-        let arrays = scene.upload(&self.device)?;
-        let last = self.begun.take();
-        let (pipeline, dropped) = match last {
-            Some((pipeline, arrays)) if pipeline.fits(scene, WORKGROUP) => (pipeline, arrays),
-            last => {
-                let dropped = last.map(|(_, arrays)| arrays).unwrap_or_default();
-                (WhittedPipeline::new(&self.device, scene, WORKGROUP)?, dropped)
-            }
-        };
-        self.begun = Some((pipeline, arrays));
-        Ok(Begun { uploaded: scene.bytes(), needs_binding: true, dropped })
     }
 }
 
@@ -127,7 +98,7 @@ impl State {
     pub fn background(&self) -> [f32; 3] {
         match self {
             Self::Course(scene) => scene.frame.background,
-            Self::Whitted(scene) => scene.background,
+            Self::Whitted(state) => state.scene.background,
         }
     }
 }

@@ -4,7 +4,9 @@ mod canvas;
 mod chunks;
 mod course;
 pub mod hierarchy;
+mod kernel_frame;
 mod live_kernel;
+mod live_whitted;
 mod outlines;
 pub mod probe;
 mod records;
@@ -20,6 +22,7 @@ use glam::DVec3;
 
 pub use canvas::Canvas;
 pub use course::{BINDINGS, MAX_PRIMITIVES, WORKGROUP, upload};
+pub use kernel_frame::KernelFrame;
 pub use outlines::bounds;
 pub use records::{
     BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MaterialRecord, PrimitiveRecords, SphereRecord,
@@ -27,7 +30,7 @@ pub use records::{
 
 pub use crate::plan::Precision;
 pub use whitted::{Requirements, check_precision, scene_bindings, upload_scene};
-pub use whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
+pub use whitted_records::{SolidRecords, WhittedFrame, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};
 use crate::gpu::{BindingSet, Buffer, BufferKind, Commands, Device, GpuError, Resource, StorageImage, Timer, Use};

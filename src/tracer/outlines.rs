@@ -5,7 +5,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::hierarchy::{Bounds, GROUP, Level};
-use super::whitted_records::{KernelFrame, row, unit};
+use super::kernel_frame::KernelFrame;
+use super::whitted_records::{row, unit};
 use crate::plan::Precision;
 use crate::scene::{Solid, SolidKind, world_from_box};
 
@@ -20,6 +21,11 @@ fn place_error(frame: KernelFrame) -> f32 {
 /// `chord_rounding` of `glsl/whitted/outlines.glsl` for the `f64` kernel.
 fn chord_rounding(frame: KernelFrame) -> f64 {
     f64::from(32.0 * f32::EPSILON * frame.reach * frame.reach)
+}
+
+/// `camera_error` of `glsl/whitted/outlines.glsl` for the `f32` kernel.
+fn camera_error(frame: KernelFrame) -> f64 {
+    f64::from(f32::EPSILON * frame.reach)
 }
 
 /// A size that no ray finds a way through.
@@ -38,7 +44,8 @@ pub fn outline(
         Solid::Sphere { center, radius } => {
             let radius = radius * scale;
             let (radius, rounding) = match precision {
-                Precision::F32 => (f64::from(radius as f32), 0.0),
+                // As if the solid were larger by what the camera is off.
+                Precision::F32 => (f64::from(radius as f32) + camera_error(frame), 0.0),
                 Precision::F64 => (radius, chord_rounding(frame)),
             };
             let mut sphere = narrow(frame.point(center), radius * radius + rounding);

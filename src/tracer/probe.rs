@@ -6,9 +6,10 @@ use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
 
 use super::course::upload;
+use super::kernel_frame::{KernelFrame, farthest};
 use super::records::{FrameRecord, PrimitiveRecords};
 use super::whitted::{Requirements, scene_bindings, upload_scene};
-use super::whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
+use super::whitted_records::{WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError, check_precision};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, Device, PipelineDescription, Resource, Use,
@@ -127,14 +128,19 @@ impl Probe {
         let precision = self.kernel.precision();
         let farthest_origin = rays.iter().map(|ray| ray.origin.abs().max_element()).fold(0.0, f64::max);
         let scene = scene_of(solids);
-        let reach = (KernelFrame::reach(&scene, DVec3::ZERO).max(farthest_origin) / 2.0) as f32;
+        let reach = (farthest(&scene.primitives, DVec3::ZERO).max(farthest_origin) / 2.0) as f32;
         let kernel_frame = KernelFrame::world(reach.next_up());
         let records = WhittedRecords::of(&scene, kernel_frame, precision, [1, 1]);
-        assert_eq!(records.counts.iter().sum::<u32>() as usize, solids.len(), "a solid is too small for the kernel");
-        let rows: Vec<[[f64; 4]; ROWS]> = rays.iter().map(|ray| ray_rows(ray, records.slots[ray.solid])).collect();
+        assert_eq!(
+            records.solids.counts.iter().sum::<u32>() as usize,
+            solids.len(),
+            "a solid is too small for the kernel"
+        );
+        let rows: Vec<[[f64; 4]; ROWS]> =
+            rays.iter().map(|ray| ray_rows(ray, records.solids.slots[ray.solid])).collect();
         let frame = WhittedFrame {
-            counts: records.counts,
-            first_outlines: records.first_outlines,
+            counts: records.solids.counts,
+            first_outlines: records.solids.first_outlines,
             tile_origin: 0,
             image_size: 0,
             depth: 1,

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::chunks::Part;
-use super::whitted_records::{KernelFrame, WhittedFrame, WhittedRecords};
+use super::kernel_frame::KernelFrame;
+use super::whitted_records::{WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, DeviceKind, FloatWidth, GpuError,
@@ -35,7 +36,7 @@ impl Precision {
     }
 
     /// Of four numbers.
-    fn row_bytes(self) -> u64 {
+    pub(super) fn row_bytes(self) -> u64 {
         match self {
             Self::F32 => 16,
             Self::F64 => 32,
@@ -50,11 +51,11 @@ impl Precision {
         }
     }
 
-    /// Rows as the kernel reads them.
-    pub(super) fn bytes(self, rows: &[[f64; 4]]) -> Vec<u8> {
+    /// Numbers as the kernel reads them.
+    pub(super) fn bytes(self, numbers: &[f64]) -> Vec<u8> {
         match self {
-            Self::F32 => rows.iter().flatten().flat_map(|&number| (number as f32).to_ne_bytes()).collect(),
-            Self::F64 => bytemuck::cast_slice(rows).to_vec(),
+            Self::F32 => numbers.iter().flat_map(|&number| (number as f32).to_ne_bytes()).collect(),
+            Self::F64 => bytemuck::cast_slice(numbers).to_vec(),
         }
     }
 }
@@ -83,9 +84,9 @@ pub struct Requirements {
 impl Requirements {
     pub fn of(records: &WhittedRecords, cuts: &Cuts, max_depth: u32) -> Self {
         Self {
-            kinds: records.counts.map(|count| count > 0),
-            levels: records.levels,
-            are_boxes_upright: records.are_boxes_upright,
+            kinds: records.solids.counts.map(|count| count > 0),
+            levels: records.solids.levels,
+            are_boxes_upright: records.solids.are_boxes_upright,
             highlights: cuts.highlights,
             lights: cuts.lights && records.light_count > 0,
             shadows: cuts.shadows,
@@ -156,7 +157,7 @@ pub fn check_precision(device: &Device, precision: Precision) -> Result<(), Trac
 
 /// Refuses arrays larger than the device lets a kernel see.
 fn check_size(device: &Device, records: &WhittedRecords, precision: Precision) -> Result<(), TracerError> {
-    let outlines = ("outlines", records.outlines.len() as u64 * Texel::BYTES);
+    let outlines = ("outlines", records.solids.outlines.len() as u64 * Texel::BYTES);
     let own = records.buffers().map(|(name, rows)| (name, rows.len() as u64 * precision.row_bytes()));
     let description = device.description();
     let limit = description.max_texels * Texel::BYTES;
@@ -196,9 +197,9 @@ fn upload(device: &Arc<Device>, records: &WhittedRecords, precision: Precision) 
     };
     let mut resources = Vec::new();
     for (name, rows) in records.buffers() {
-        resources.push(upload(name, precision.texel(), &precision.bytes(rows))?);
+        resources.push(upload(name, precision.texel(), &precision.bytes(rows.as_flattened()))?);
     }
-    resources.insert(1, upload("outlines", Texel::Floats, bytemuck::cast_slice(&records.outlines))?);
+    resources.insert(1, upload("outlines", Texel::Floats, bytemuck::cast_slice(&records.solids.outlines))?);
     Ok(resources)
 }
 
@@ -209,7 +210,7 @@ const EMPTY_ARRAY_BYTES: u64 = 7 * 32;
 #[derive(PartialEq)]
 pub(super) struct WhittedScene {
     kernel: Kernel,
-    records: WhittedRecords,
+    pub records: WhittedRecords,
     requirements: Requirements,
     /// Of the whole picture.
     pub frame: WhittedFrame,
@@ -228,21 +229,35 @@ impl WhittedScene {
         kernel: Kernel,
         cuts: Cuts,
         max_depth: u32,
+        size: [u32; 2],
+    ) -> Result<Self, TracerError> {
+        check_precision(device, kernel.precision())?;
+        let records = WhittedRecords::of(scene, KernelFrame::of(scene), kernel.precision(), size);
+        Self::with(device, scene, records, kernel, cuts, max_depth, size)
+    }
+
+    /// With the scene's records for a picture of that size.
+    ///
+    /// # Errors
+    /// The device lets no kernel see so many primitives.
+    pub fn with(
+        device: &Device,
+        scene: &Scene,
+        records: WhittedRecords,
+        kernel: Kernel,
+        cuts: Cuts,
+        max_depth: u32,
         [width, height]: [u32; 2],
     ) -> Result<Self, TracerError> {
-        let precision = kernel.precision();
-        check_precision(device, precision)?;
-        let kernel_frame = KernelFrame::of(scene);
-        let records = WhittedRecords::of(scene, kernel_frame, precision, [width, height]);
-        check_size(device, &records, precision)?;
+        check_size(device, &records, kernel.precision())?;
         let frame = WhittedFrame {
-            counts: records.counts,
-            first_outlines: records.first_outlines,
+            counts: records.solids.counts,
+            first_outlines: records.solids.first_outlines,
             tile_origin: 0,
             image_size: width | height << 16,
             depth: max_depth,
             light_count: records.light_count,
-            reach: kernel_frame.reach,
+            reach: records.solids.frame.reach,
             writes_remainder: 0,
             least_weight: cuts.least_weight,
             least_shadowed: cuts.least_shadowed,
@@ -264,7 +279,7 @@ impl WhittedScene {
     /// Of all arrays.
     pub fn bytes(&self) -> u64 {
         let rows: usize = self.records.buffers().iter().map(|(_, rows)| rows.len()).sum();
-        rows as u64 * self.kernel.precision().row_bytes() + self.records.outlines.len() as u64 * Texel::BYTES
+        rows as u64 * self.kernel.precision().row_bytes() + self.records.solids.outlines.len() as u64 * Texel::BYTES
     }
 }
 

@@ -4,98 +4,81 @@
 //! number. What an `f32` cannot hold and the kernel needs (an axis, the middle between two ends) is told as a number
 //! and its error.
 
+use std::sync::Arc;
+
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::hierarchy::{self, GROUP};
+use super::hierarchy::{self, Bounds, GROUP, Level};
+use super::kernel_frame::{KernelFrame, Reach, two_sum};
 use super::outlines::{bounds, is_turned, level_rows, nothing, outline};
 use crate::plan::Precision;
 use crate::scene::{Camera, Light, Primitive, Projection, Scene, Solid, SolidKind, world_from_box};
-
-/// From the world frame to the kernel's: (world − origin)·scale, rounded once where `scale` is a power of two.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KernelFrame {
-    /// World frame.
-    pub origin: DVec3,
-    pub scale: f64,
-    /// Half of the largest coordinate of a solid or of a ray's origin, kernel lengths.
-    pub reach: f32,
-}
 
 /// Lights farther than this many times the largest primitive are moved here along their direction: parallel light to
 /// the last bit of an `f64`, and no square of their distance overflows an `f32`.
 const FARTHEST_LIGHT: f64 = (1_u64 << 60) as f64;
 
-impl KernelFrame {
-    /// The world frame itself, where no coordinate is larger than twice `reach`.
-    pub fn world(reach: f32) -> Self {
-        Self { origin: DVec3::ZERO, scale: 1.0, reach }
-    }
-
-    /// With the camera at the origin, which its rays leave without rounding, and the farthest reach of a primitive
-    /// from there brought below 2 by a power of two: squares stay far from the ends of `f32` whatever the scene's unit.
-    pub fn of(scene: &Scene) -> Self {
-        let origin = scene.camera.position;
-        let farthest = Self::reach(scene, origin);
-        // From −1022 to 1022 the scale and its reciprocal are normal numbers.
-        let exponent = if farthest > 0.0 { farthest.log2().floor().clamp(-1022.0, 1022.0) } else { 0.0 };
-        Self { origin, scale: (-exponent).exp2(), reach: 1.0 }
-    }
-
-    /// The largest coordinate of a solid, seen from a place; world lengths.
-    pub(super) fn reach(scene: &Scene, origin: DVec3) -> f64 {
-        let reach = |primitive: &Primitive| {
-            let reach = Reach::of(&primitive.solid);
-            (reach.center - origin).abs().max_element() + reach.radius
-        };
-        scene.primitives.par_iter().map(reach).reduce(|| 0.0, f64::max)
-    }
-
-    pub(super) fn point(&self, world: DVec3) -> DVec3 {
-        (world - self.origin) * self.scale
-    }
-}
-
-/// A sphere around a solid, world frame.
-struct Reach {
-    center: DVec3,
-    radius: f64,
-}
-
-impl Reach {
-    fn of(solid: &Solid) -> Self {
-        match *solid {
-            Solid::Sphere { center, radius } => Self { center, radius },
-            Solid::Box { center, half_size, .. } => Self { center, radius: half_size.length() },
-            Solid::Cylinder { ends: [a, b], radius } => {
-                Self { center: a.midpoint(b), radius: radius.hypot(half_length(a, b)) }
-            }
-            Solid::Cone { apex, axis, height, half_angle_degrees } => {
-                // Through the apex and the base's rim; of a blunt cone, the base itself.
-                let base_radius = height * half_angle_degrees.to_radians().tan();
-                let radius = (height * height + base_radius * base_radius) / (2.0 * height);
-                let (radius, at) = if base_radius <= height { (radius, radius) } else { (base_radius, height) };
-                Self { center: apex + axis * at, radius }
-            }
-        }
-    }
-}
-
-fn half_length(a: DVec3, b: DVec3) -> f64 {
-    // Halved first: the difference of two numbers near the largest must not overflow.
-    (b * 0.5 - a * 0.5).length()
-}
-
 /// What the kernel's buffers hold.
-#[derive(Debug, Clone, Default, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct WhittedRecords {
     /// `View`, then the lights.
     pub view_and_lights: Vec<[f64; 4]>,
+    pub light_count: u32,
+    /// Shared by pictures whose primitives and frame are the same.
+    pub solids: Arc<SolidRecords>,
+}
+
+impl PartialEq for WhittedRecords {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { view_and_lights, light_count, solids } = self;
+        (view_and_lights, *light_count) == (&other.view_and_lights, other.light_count)
+            && (Arc::ptr_eq(solids, &other.solids) || *solids == other.solids)
+    }
+}
+
+impl WhittedRecords {
+    /// For a picture of `width`×`height` pixels; `precision` is that of the kernel.
+    pub fn of(scene: &Scene, frame: KernelFrame, precision: Precision, size: [u32; 2]) -> Self {
+        Self::with(scene, Arc::new(SolidRecords::of(&scene.primitives, frame, precision, None)), precision, size)
+    }
+
+    /// With records of the scene's primitives that are there already.
+    pub(super) fn with(
+        scene: &Scene,
+        solids: Arc<SolidRecords>,
+        precision: Precision,
+        [width, height]: [u32; 2],
+    ) -> Self {
+        let mut view_and_lights = view(scene, solids.frame, precision, width, height).to_vec();
+        view_and_lights.extend(scene.lights.iter().flat_map(|light| light_rows(light, solids.frame)));
+        Self { view_and_lights, light_count: scene.lights.len() as u32, solids }
+    }
+
+    /// The buffers of the kernel's own numbers, in the order of their bindings, with their names; the outlines come
+    /// after the first.
+    pub fn buffers(&self) -> [(&'static str, &[[f64; 4]]); 6] {
+        let [spheres, boxes, cylinders, cones] = &self.solids.rows;
+        [
+            ("view and lights", &self.view_and_lights),
+            ("spheres", spheres),
+            ("boxes", boxes),
+            ("cylinders", cylinders),
+            ("cones", cones),
+            ("materials", &self.solids.materials),
+        ]
+    }
+}
+
+/// All that the kernel is told of the primitives.
+#[derive(Debug, Default, PartialEq)]
+pub struct SolidRecords {
+    pub frame: KernelFrame,
     /// The outlines of each kind's solids and the boxes over them, for the search in `f32`.
     pub outlines: Vec<[f32; 4]>,
     /// Spheres, boxes, cylinders, cones, as all that follows by kind.
-    pub solids: [Vec<[f64; 4]>; 4],
+    pub rows: [Vec<[f64; 4]>; 4],
     /// By slot.
     pub materials: Vec<[f64; 4]>,
     /// The slot of each primitive of the scene, or [`NO_SLOT`].
@@ -107,81 +90,108 @@ pub struct WhittedRecords {
     pub levels: [u32; 4],
     /// No box is turned.
     pub are_boxes_upright: bool,
-    pub light_count: u32,
+    orders: [Order; 4],
 }
 
 /// Of a primitive that is too small for the kernel.
 pub const NO_SLOT: u32 = u32::MAX;
 
-impl WhittedRecords {
-    /// For a picture of `width`×`height` pixels; `precision` is that of the kernel.
-    pub fn of(scene: &Scene, frame: KernelFrame, precision: Precision, [width, height]: [u32; 2]) -> Self {
-        let slots = vec![NO_SLOT; scene.primitives.len()];
-        let mut records = Self { are_boxes_upright: true, slots, ..Self::default() };
-        records.view_and_lights.extend(view(scene, width, height));
-        records.view_and_lights.extend(scene.lights.iter().flat_map(|light| light_rows(light, frame)));
-        records.light_count = scene.lights.len() as u32;
+/// How the solids of a kind lie.
+#[derive(Debug, Default, PartialEq)]
+struct Order {
+    places: Vec<u32>,
+    /// Surface of all boxes when it was chosen.
+    surface: f64,
+}
+
+/// An order is kept while its boxes have no more than this many times the surface that they had when it was chosen: what
+/// a ray looks into goes by that.
+const MOST_SURFACE: f64 = 1.5;
+
+impl SolidRecords {
+    /// In the order of `last`, of the same frame, for kinds where that still fits: then solids that did not change have
+    /// the records that they had, in their places.
+    pub(super) fn of(
+        primitives: &[Primitive],
+        frame: KernelFrame,
+        precision: Precision,
+        last: Option<&SolidRecords>,
+    ) -> Self {
+        let slots = vec![NO_SLOT; primitives.len()];
+        let mut records = Self { frame, are_boxes_upright: true, slots, ..Self::default() };
         for kind in SolidKind::ALL {
-            records.add(kind, scene, frame, precision);
+            records.add(kind, primitives, precision, last.map(|last| &last.orders[kind as usize]));
         }
         records
     }
 
-    fn add(&mut self, kind: SolidKind, scene: &Scene, frame: KernelFrame, precision: Precision) {
+    fn add(&mut self, kind: SolidKind, primitives: &[Primitive], precision: Precision, last: Option<&Order>) {
+        let frame = self.frame;
         let is_counted = |(_, primitive): &(u32, &Primitive)| {
             // Below that, squares leave the kernel's range; against the scene it is nothing that a pixel could show.
             let reach = Reach::of(&primitive.solid).radius * frame.scale;
             primitive.solid.kind() == kind && reach >= precision.smallest_length()
         };
-        let primitives: Vec<_> = (0_u32..).zip(&scene.primitives).filter(is_counted).collect();
+        let primitives: Vec<_> = (0_u32..).zip(primitives).filter(is_counted).collect();
         let bounds: Vec<_> = primitives.par_iter().map(|(_, primitive)| bounds(&primitive.solid, frame)).collect();
-        let levels = hierarchy::level_count(bounds.len());
-        let order: Vec<u32> = if levels == 0 { (0..bounds.len() as u32).collect() } else { hierarchy::order(&bounds) };
-        let bounds: Vec<_> = order.par_iter().map(|&place| bounds[place as usize]).collect();
-        let ordered = || order.par_iter().map(|&place| primitives[place as usize]);
+        let (order, bounds, levels) = ordered(bounds, last);
+        let ordered = || order.places.par_iter().map(|&place| primitives[place as usize]);
 
         let first_slot = (self.materials.len() / MATERIAL_ROWS) as u32;
-        for (slot, (primitive, _)) in (first_slot..).zip(order.iter().map(|&place| primitives[place as usize])) {
+        for (slot, (primitive, _)) in (first_slot..).zip(order.places.iter().map(|&place| primitives[place as usize])) {
             self.slots[primitive as usize] = slot;
         }
-        self.counts[kind as usize] = order.len() as u32;
-        self.levels[kind as usize] = levels as u32;
+        self.counts[kind as usize] = bounds.len() as u32;
+        self.levels[kind as usize] = levels.len() as u32;
         self.first_outlines[kind as usize] = self.outlines.len() as u32;
         self.outlines.par_extend(
             ordered()
                 .zip(&bounds)
                 .flat_map_iter(|((_, primitive), bounds)| outline(&primitive.solid, *bounds, frame, precision)),
         );
-        let missing = order.len().next_multiple_of(GROUP) - order.len();
+        let missing = bounds.len().next_multiple_of(GROUP) - bounds.len();
         self.outlines.extend(std::iter::repeat_n(nothing(kind), missing).flatten());
-        for level in hierarchy::levels(&bounds) {
-            self.outlines.extend(level_rows(&level, frame));
+        for level in &levels {
+            self.outlines.extend(level_rows(level, frame));
         }
         self.are_boxes_upright &= !ordered().any(|(_, primitive)| is_turned(&primitive.solid));
-        let solids = &mut self.solids[kind as usize];
-        solids.par_extend(ordered().flat_map_iter(|(_, primitive)| solid_rows(&primitive.solid, frame, precision)));
+        let rows = &mut self.rows[kind as usize];
+        rows.par_extend(ordered().flat_map_iter(|(_, primitive)| solid_rows(&primitive.solid, frame, precision)));
         self.materials.par_extend(ordered().flat_map_iter(|(index, Primitive { material, .. })| {
             let second = [material.diffuse, material.specular, f64::from(index), 0.0];
             [row(material.color, material.ambient), second]
         }));
         // Slots of nothing make the group whole.
-        self.solids[kind as usize].extend(vec![[0.0; 4]; missing * SOLID_ROWS[kind as usize]]);
+        rows.extend(vec![[0.0; 4]; missing * SOLID_ROWS[kind as usize]]);
         self.materials.extend(vec![[0.0; 4]; missing * MATERIAL_ROWS]);
+        self.orders[kind as usize] = order;
     }
+}
 
-    /// The buffers of the kernel's own numbers, in the order of their bindings, with their names; the outlines come
-    /// after the first.
-    pub fn buffers(&self) -> [(&'static str, &[[f64; 4]]); 6] {
-        let [spheres, boxes, cylinders, cones] = &self.solids;
-        [
-            ("view and lights", &self.view_and_lights),
-            ("spheres", spheres),
-            ("boxes", boxes),
-            ("cylinders", cylinders),
-            ("cones", cones),
-            ("materials", &self.materials),
-        ]
+/// The last order or, where that does not fit, a new one; with the bounds in it and the levels over them.
+fn ordered(bounds: Vec<Bounds>, last: Option<&Order>) -> (Order, Vec<Bounds>, Vec<Level>) {
+    let built = |places: Vec<u32>| {
+        let ordered: Vec<_> = places.par_iter().map(|&place| bounds[place as usize]).collect();
+        let levels = hierarchy::levels(&ordered);
+        let surface: f64 = levels.iter().flat_map(|level| &level.boxes).map(half_surface).sum();
+        (Order { places, surface }, ordered, levels)
+    };
+    if hierarchy::level_count(bounds.len()) == 0 {
+        return built((0..bounds.len() as u32).collect());
     }
+    if let Some(last) = last.filter(|last| last.places.len() == bounds.len()) {
+        let (order, bounds, levels) = built(last.places.clone());
+        if order.surface <= MOST_SURFACE * last.surface {
+            // Its measure stays that of when it was chosen, or it would get worse step by step.
+            return (Order { surface: last.surface, ..order }, bounds, levels);
+        }
+    }
+    built(hierarchy::order(&bounds))
+}
+
+fn half_surface(bounds: &Bounds) -> f64 {
+    let side = bounds.high - bounds.low;
+    side.x * side.y + side.y * side.z + side.z * side.x
 }
 
 /// Rows of a record of each kind, in the order of [`SolidKind::ALL`], and of a material.
@@ -240,13 +250,6 @@ fn solid_rows(solid: &Solid, frame: KernelFrame, precision: Precision) -> Vec<[f
     }
 }
 
-/// a + b and what its rounding lost (Knuth's TwoSum).
-fn two_sum(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
-    let sum = a + b;
-    let b_part = sum - a;
-    (sum, (a - (sum - b_part)) + (b - b_part))
-}
-
 /// The unit vector along value + error, and what its rounding lost.
 pub(super) fn unit((value, error): (DVec3, DVec3)) -> (DVec3, DVec3) {
     // Scaled by a power of two, so that no square leaves the range of `f64`.
@@ -279,8 +282,9 @@ fn light_rows(light: &Light, frame: KernelFrame) -> [[f64; 4]; 2] {
 }
 
 /// `View`
-fn view(scene: &Scene, width: u32, height: u32) -> [[f64; 4]; 4] {
-    let Camera { direction, up, vertical_fov_degrees, projection, .. } = scene.camera;
+fn view(scene: &Scene, frame: KernelFrame, precision: Precision, width: u32, height: u32) -> [[f64; 4]; 6] {
+    let Camera { position, direction, up, vertical_fov_degrees, projection } = scene.camera;
+    let (position, position_error) = precision.split(frame.exact_point(position));
     let unit = |vector| unit((vector, DVec3::ZERO)).0;
     let ahead = unit(direction);
     let left = unit(unit(up).cross(ahead));
@@ -290,7 +294,14 @@ fn view(scene: &Scene, width: u32, height: u32) -> [[f64; 4]; 4] {
         Projection::Centered => 0.0,
         Projection::Course => -1.0,
     };
-    [row(left, half_width), row(ahead.cross(left), half_height), row(ahead, window_low), row(scene.background, 0.0)]
+    [
+        row(left, half_width),
+        row(ahead.cross(left), half_height),
+        row(ahead, window_low),
+        row(scene.background, 0.0),
+        row(position, 0.0),
+        row(position_error, 0.0),
+    ]
 }
 
 /// `WhittedFrame`: the push constants.
