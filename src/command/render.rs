@@ -177,15 +177,20 @@ fn check_precision(args: &RenderArgs) -> Result<(), TracerError> {
 
 fn on_device(args: &RenderArgs, scene: &Scene) -> Result<Rendered> {
     let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
+    // From before the driver's threads compile anything until they are gone: a program that ends in their midst may crash.
+    let listener = Listener::start();
     let device = Device::open(args.device.device.as_deref(), validation)?;
     let DeviceDescription { name, driver, .. } = device.description().clone();
     let messages = device.messages().clone();
 
     let (settings, error_bound) = settings(args, scene, device.description())?;
     let mut tracer = Tracer::new(&device, scene, &settings)?;
-    let (frame, samples_ns) = render(&mut tracer, args.repeat)?;
+    let (frame, samples_ns) = render(&mut tracer, args.repeat, &listener)?;
     // Destroyed before the messages are counted: the layers check that too.
     drop((tracer, device));
+    if listener.stop_requested() {
+        return Err(TracerError::Stopped.into());
+    }
     let precision = Precision::of_library(settings.kernel.precision());
     Ok(Rendered { frame, precision, error_bound, device: name, driver, samples_ns, messages: messages.to_vec() })
 }
@@ -240,13 +245,12 @@ fn settings(args: &RenderArgs, scene: &Scene, device: &DeviceDescription) -> Res
 }
 
 /// The frame and the GPU time of every measured render.
-fn render(tracer: &mut Tracer, repeat: Option<u32>) -> Result<(Frame, Vec<u64>)> {
+fn render(tracer: &mut Tracer, repeat: Option<u32>, listener: &Listener) -> Result<(Frame, Vec<u64>)> {
     let warm_ups = u64::from(repeat.is_some());
     let measured = repeat.map_or(1, u64::from);
     let mut frame = tracer.frame()?;
     let frame_pixels = u64::from(frame.width()) * u64::from(frame.height());
     let bar = progress_bar(frame_pixels * (warm_ups + measured));
-    let listener = Listener::start();
 
     let mut samples_ns = Vec::new();
     for index in 0..warm_ups + measured {
