@@ -137,8 +137,8 @@ impl Requirements {
 /// Specialization constant 7: the turns of loops that an invocation may take.
 fn loop_turns(device: &Device) -> u32 {
     match device.description().kind {
-        // Below Mesa's 65535 by more than the last groups of a search among all kinds take to end.
-        DeviceKind::Cpu => 65_000,
+        // Below Mesa's 65535 by more than a last search among all kinds takes to end.
+        DeviceKind::Cpu => 60_000,
         DeviceKind::Discrete | DeviceKind::Integrated | DeviceKind::Virtual | DeviceKind::Other => u32::MAX,
     }
 }
