@@ -13,11 +13,6 @@ struct WhittedFrame {
 };
 layout(push_constant, std430) uniform Push { WhittedFrame frame; };
 
-const uint SPHERE = 0u;
-const uint BOX = 1u;
-const uint CYLINDER = 2u;
-const uint CONE = 3u;
-
 // Of each kind, which takes whole groups of eight.
 uvec4 first_slots() {
     uvec4 counts = frame.counts + 7u & ~7u;
