@@ -85,6 +85,7 @@ layout(constant_id = 13) const bool HAS_HIGHLIGHTS = true;
 layout(constant_id = 14) const bool HAS_LIGHTS = true;
 layout(constant_id = 15) const bool HAS_SHADOWS = true;
 layout(constant_id = 16) const bool HAS_REFLECTIONS = true;
+layout(constant_id = 17) const bool HAS_BALLS = true;
 
 // Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 turns of all of them together: there
 // the search ends before that, and says so.

@@ -51,8 +51,9 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
     uint generation = 0u;
     uint purpose = is_there ? TO_NEAREST : ENDED;
     Departure departure = Departure(NOTHING, CURVED, false);
-    Real3 ball_intensity;
-    Real ball_t = light_ball_ahead(ray, ball_intensity);
+    Real3 ball_intensity = Real3(0.0);
+    Real ball_t = LARGEST;
+    if (HAS_BALLS) ball_t = light_ball_ahead(ray, ball_intensity);
 
     // The nearest hit so far of the ray, and then what its lights add up to.
     Hit nearest;

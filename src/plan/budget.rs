@@ -26,6 +26,8 @@ pub struct Cuts {
     pub least_shadowed: f32,
     /// Whether there are highlights.
     pub highlights: bool,
+    /// Whether the camera may see the ball of a light.
+    pub balls: bool,
     /// Whether there is light that brightens anything.
     pub lights: bool,
     /// Whether solids may hide lights.
@@ -40,6 +42,7 @@ impl Cuts {
         least_weight: 0.0,
         least_shadowed: 0.0,
         highlights: true,
+        balls: true,
         lights: true,
         shadows: true,
         reflections: true,

@@ -10,6 +10,7 @@
 //! assert!(plan.bounds.total() <= wishes.error);
 //! ```
 
+mod balls;
 mod budget;
 mod ceiling;
 mod precision;
@@ -135,8 +136,8 @@ pub struct Plan {
     pub counts: [usize; 4],
     /// Whether no box is turned against the world's axes.
     pub upright_boxes: Decision<bool>,
-    /// All lights: primary rays see their balls.
-    pub balls: usize,
+    /// Balls of lights that primary rays may see, those of dark lights too.
+    pub balls: Decision<usize>,
     /// Lights that brighten anything. Where there are none, nothing is shaded by light; one needs no loop.
     pub lights: Decision<usize>,
     /// Whether a solid may lie between a hit and a light.
@@ -183,11 +184,18 @@ impl Plan {
             spend(&transport, wishes.error, generations.choice, precision.choice, shadows.choice, highlights.choice);
         let Spent { cuts, bounds, .. } = spent;
         let generations = cut_generations(generations, &spent);
-        let cuts = Cuts { lights: is_lit, shadows: shadows.choice, reflections: generations.choice > 1, ..cuts };
+        let balls = balls::decide(scene, wishes);
+        let cuts = Cuts {
+            balls: balls.choice > 0,
+            lights: is_lit,
+            shadows: shadows.choice,
+            reflections: generations.choice > 1,
+            ..cuts
+        };
         Ok(Self {
             counts,
             upright_boxes: upright_boxes(scene, counts),
-            balls: scene.lights.len(),
+            balls,
             lights,
             shadows,
             highlights: cut_highlights(highlights, &spent),

@@ -21,6 +21,13 @@ pub enum Reason {
         turned: usize,
     },
     NoLights,
+    BallsOutOfSight {
+        lights: usize,
+    },
+    BallsInSight {
+        lights: usize,
+        seen: usize,
+    },
     /// All are dark, or no surface sends anything back in their colours.
     NothingTakesLight {
         lights: usize,
@@ -96,6 +103,8 @@ impl fmt::Display for Reason {
             Self::NoBoxTurned => write!(f, "no box is turned"),
             Self::BoxesTurned { boxes, turned } => write!(f, "{turned} of {boxes} boxes are turned"),
             Self::NoLights => write!(f, "the scene has none"),
+            Self::BallsOutOfSight { lights } => write!(f, "the picture shows none of {lights}"),
+            Self::BallsInSight { lights, seen } => write!(f, "the picture may show {seen} of {lights}"),
             Self::NothingTakesLight { lights } => {
                 write!(f, "{lights} in the scene, but no surface sends back anything of their light")
             }
@@ -208,7 +217,13 @@ impl Plan {
         let mut lines: Vec<Line> = SolidKind::ALL.into_iter().map(|kind| self.kind_line(kind)).collect();
         lines.push(self.upright_line());
         lines.push(Line::new("structure", structures(&self.structures.choice), &self.structures, None));
-        lines.extend([self.lights_line(), self.shadows_line(), self.highlights_line(), self.generations_line()]);
+        lines.extend([
+            self.balls_line(),
+            self.lights_line(),
+            self.shadows_line(),
+            self.highlights_line(),
+            self.generations_line(),
+        ]);
         lines.push(Line::new("precision", self.precision.choice.name(), &self.precision, None));
         let [width, height] = self.workgroup.choice;
         lines.push(Line::new("workgroup", format!("{width}x{height}"), &self.workgroup, None));
@@ -236,6 +251,11 @@ impl Plan {
         let saves = (self.upright_boxes.choice && has_boxes).then_some("the turn of every ray into every box");
         let choice = if self.upright_boxes.choice { "none" } else { "yes" };
         Line::new("turned boxes", choice, &self.upright_boxes, saves)
+    }
+
+    fn balls_line(&self) -> Line {
+        let saves = (self.balls.choice == 0).then_some("the ball of every light for every primary ray");
+        Line::new("light balls", none_or(self.balls.choice), &self.balls, saves)
     }
 
     fn lights_line(&self) -> Line {

@@ -76,6 +76,7 @@ pub struct Requirements {
     pub levels: [u32; 4],
     pub are_boxes_upright: bool,
     pub highlights: bool,
+    pub balls: bool,
     pub lights: bool,
     pub shadows: bool,
     pub reflections: bool,
@@ -88,6 +89,7 @@ impl Requirements {
             levels: records.solids.levels,
             are_boxes_upright: records.solids.are_boxes_upright,
             highlights: cuts.highlights,
+            balls: cuts.balls && records.light_count > 0,
             lights: cuts.lights && records.light_count > 0,
             shadows: cuts.shadows,
             reflections: cuts.reflections && max_depth > 1,
@@ -103,7 +105,7 @@ impl Requirements {
         device: &Arc<Device>,
         precision: Precision,
         [width, height]: [u32; 2],
-    ) -> Result<[u32; 17], GpuError> {
+    ) -> Result<[u32; 18], GpuError> {
         let float_width = match precision {
             Precision::F32 => FloatWidth::F32,
             Precision::F64 => FloatWidth::F64,
@@ -111,7 +113,7 @@ impl Requirements {
         let has_fused_fma = u32::from(arithmetic(device, float_width)?.fused_fma);
         let [spheres, boxes, cylinders, cones] = self.kinds.map(u32::from);
         let [sphere_levels, box_levels, cylinder_levels, cone_levels] = self.levels;
-        let &Self { highlights, lights, shadows, reflections, .. } = self;
+        let &Self { highlights, balls, lights, shadows, reflections, .. } = self;
         Ok([
             has_fused_fma,
             spheres,
@@ -130,6 +132,7 @@ impl Requirements {
             u32::from(lights),
             u32::from(shadows),
             u32::from(reflections),
+            u32::from(balls),
         ])
     }
 }
