@@ -1,48 +1,61 @@
 // The outlines of solids: where a ray may meet one at the earliest, and whether it does for sure. In float, on the safe
 // side; src/tracer/outlines.rs writes them. An outline of nothing is never met.
 
-// The half chord, squared, is off by this much of the squared distance: 2u for the difference, 3u for each dot product and
-// 4u for the direction's length, each at most once, and as much again for the sum.
+// The half chord of a cylinder or a cone, squared, is off by this much of what it comes from: 2u for the difference, 3u for
+// each dot product and 4u for the direction's length, each at most once, and as much again for the sum.
 const float CHORD_ERROR = 32.0 * FLOAT_ROUNDOFF;
 #if REAL_BITS == 64
-// And by the rounding of centre and ray to float, at distances of up to 4 * frame.reach. An outline has it in its square.
+// And by the rounding of middle and ray to float, at distances of up to 4 * frame.reach.
 float chord_rounding() { return 64.0 * FLOAT_ROUNDOFF * frame.reach * frame.reach; }
-float camera_error() { return 0.0; }
 #else
+// The rounding of the camera is little against their place errors.
 float chord_rounding() { return 0.0; }
-// How far rounding moves the camera, whose coordinates are below 2 * frame.reach: half a unit in the last place of each. A
-// sphere's outline has it in its radius; the place errors of other outlines are large against it.
-float camera_error() { return 2.0 * FLOAT_ROUNDOFF * frame.reach; }
 #endif
 
-// a: centre, the radius squared, rounded up.
-uint key_of_sphere(vec4 a, vec4 b, Beam beam, uint k) {
+// How near the line comes to a centre is off by so much of the distance D to that: u for the difference from the origin,
+// 11u for how far ahead the closest point is (3u for the dot product, 8u for the direction's length), 2u for the way there
+// and 2u for the squares. D is no more than that way and the radius; an outline has the radius's part in it.
+const float DISTANCE_ERROR = 16.0 * FLOAT_ROUNDOFF;
+
+// Of a line in a sphere that is larger than the true one, by `error`, at most.
+struct Chord {
+    float ahead;        // its middle, from the ray's origin
+    float radius;
+    float half_squared; // negative where there is none
+    float error;
+};
+
+Chord chord_of(vec4 a, Beam beam) {
     vec3 to_center = a.xyz - beam.origin;
     float ahead = dot(to_center, beam.direction);
-    float chord_squared = (a.w - (1.0 - CHORD_ERROR) * dot(to_center, to_center)) + ahead * ahead;
-    // Not a number where the chord is none.
-    float chord = sqrt(chord_squared);
-    float leaves = ahead + (chord + 2.0 * place_error());
-    int never = (floatBitsToInt(chord_squared) | floatBitsToInt(leaves)) >> 31;
-    return key_of(ahead - (chord + 2.0 * place_error()), never, k);
+    vec3 across = to_center - ahead * beam.direction;
+    float radius = a.w + DISTANCE_ERROR * abs(ahead);
+    float error = DISTANCE_ERROR * (abs(ahead) + radius) + place_error();
+    return Chord(ahead, radius, radius * radius - dot(across, across), error);
+}
+
+// a: centre, radius; larger by DISTANCE_ERROR times the radius and by a place error, for the rounding of the centre and
+// the ray to float (7u * reach in place and as much by the direction, of the double kernel; of the float kernel the
+// camera's 4u). Of an outline of nothing, negative.
+uint key_of_sphere(vec4 a, vec4 b, Beam beam, uint k) {
+    Chord chord = chord_of(a, beam);
+    // Not a number where there is none.
+    float half_chord = sqrt(chord.half_squared);
+    float leaves = chord.ahead + (half_chord + 3.0 * place_error());
+    int never = (floatBitsToInt(a.w) | floatBitsToInt(chord.half_squared) | floatBitsToInt(leaves)) >> 31;
+    return key_of(chord.ahead - (half_chord + 3.0 * place_error()), never, k);
 }
 
 void settle_sphere(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
-    vec3 to_center = a.xyz - beam.origin;
-    float ahead = dot(to_center, beam.direction);
-    float distance_squared = dot(to_center, to_center);
-    float chord_squared = (a.w - (1.0 - CHORD_ERROR) * distance_squared) + ahead * ahead;
-    float chord = sqrt(max(chord_squared, 0.0));
-    // The true half chord, squared, is less by two errors at most, and so no less than 0.77^2 of this one.
-    // That of an outline with the camera's error in it, to a ray off by as much, is larger by four times that times the
-    // radius.
-    float by_radius = inversesqrt(a.w);
-    float moved = 4.0 * camera_error() * (a.w * by_radius);
-    bool is_deep = chord_squared >= 5.0 * (CHORD_ERROR * distance_squared + chord_rounding() + moved);
+    Chord chord = chord_of(a, beam);
+    float half_chord = sqrt(max(chord.half_squared, 0.0));
+    // Then the true half chord, squared, is no less than 0.77^2 of this one: radius and distance differ by five errors at
+    // least, and truly by two less.
+    bool is_deep = chord.half_squared >= 10.0 * chord.error * chord.radius;
     // The sine of the ray to the surface is half chord by radius; the origin is outside by t times that, or more.
-    float sine = 0.77 * chord * by_radius;
-    bool is_ahead = (ahead - chord) * sine > HIDING_ERROR * (4.0 * frame.reach);
-    settle(is_there && is_deep && is_ahead, ahead - 0.77 * chord + 2.0 * place_error(), sine, beam, found);
+    float sine = 0.77 * half_chord / chord.radius;
+    bool is_ahead = (chord.ahead - half_chord) * sine > HIDING_ERROR * (4.0 * frame.reach);
+    settle(is_there && is_deep && is_ahead, chord.ahead - 0.77 * half_chord + 3.0 * place_error(), sine, beam, found);
 }
 
 // a: centre; b: half sizes and, where the box is no more than its outline, 1. Both rounded outwards by 2 place errors.

@@ -7,7 +7,6 @@ use rayon::prelude::*;
 use super::hierarchy::{Bounds, GROUP, Level};
 use super::kernel_frame::KernelFrame;
 use super::whitted_records::{row, unit};
-use crate::plan::Precision;
 use crate::scene::{Solid, SolidKind, world_from_box};
 
 /// A row of the texel buffer.
@@ -18,37 +17,21 @@ fn place_error(frame: KernelFrame) -> f32 {
     8.0 * f32::EPSILON * frame.reach
 }
 
-/// `chord_rounding` of `glsl/whitted/outlines.glsl` for the `f64` kernel.
-fn chord_rounding(frame: KernelFrame) -> f64 {
-    f64::from(32.0 * f32::EPSILON * frame.reach * frame.reach)
-}
-
-/// `camera_error` of `glsl/whitted/outlines.glsl` for the `f32` kernel.
-fn camera_error(frame: KernelFrame) -> f64 {
-    f64::from(f32::EPSILON * frame.reach)
-}
+/// `DISTANCE_ERROR` of `glsl/whitted/outlines.glsl`.
+const DISTANCE_ERROR: f64 = 8.0 * f32::EPSILON as f64;
 
 /// A size that no ray finds a way through.
 const IMPOSSIBLE: f32 = -1e30;
 
 /// One row for a sphere, two for the others.
-pub fn outline(
-    solid: &Solid,
-    bounds: Bounds,
-    frame: KernelFrame,
-    precision: Precision,
-) -> impl Iterator<Item = Row> + use<> {
+pub fn outline(solid: &Solid, bounds: Bounds, frame: KernelFrame) -> impl Iterator<Item = Row> + use<> {
     let narrow = |vector: DVec3, fourth: f64| row(vector, fourth).map(|number| number as f32);
     let scale = frame.scale;
     let (first, second) = match *solid {
         Solid::Sphere { center, radius } => {
             let radius = radius * scale;
-            let (radius, rounding) = match precision {
-                // As if the solid were larger by what the camera is off.
-                Precision::F32 => (f64::from(radius as f32) + camera_error(frame), 0.0),
-                Precision::F64 => (radius, chord_rounding(frame)),
-            };
-            let mut sphere = narrow(frame.point(center), radius * radius + rounding);
+            let mut sphere =
+                narrow(frame.point(center), radius * (1.0 + DISTANCE_ERROR) + f64::from(place_error(frame)));
             sphere[3] = sphere[3].next_up();
             (sphere, None)
         }

@@ -145,9 +145,7 @@ impl SolidRecords {
         self.levels[kind as usize] = levels.len() as u32;
         self.first_outlines[kind as usize] = self.outlines.len() as u32;
         self.outlines.par_extend(
-            ordered()
-                .zip(&bounds)
-                .flat_map_iter(|((_, primitive), bounds)| outline(&primitive.solid, *bounds, frame, precision)),
+            ordered().zip(&bounds).flat_map_iter(|((_, primitive), bounds)| outline(&primitive.solid, *bounds, frame)),
         );
         let missing = bounds.len().next_multiple_of(GROUP) - bounds.len();
         self.outlines.extend(std::iter::repeat_n(nothing(kind), missing).flatten());
