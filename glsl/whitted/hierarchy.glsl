@@ -1,42 +1,54 @@
 // The search through the solids of a kind, included once for each: SEARCH is its name, KEY_OF and SETTLE what looks at an
-// outline of OUTLINE_ROWS rows, KIND the kind and LEVELS the number of levels over the solids.
+// outline of OUTLINE_ROWS rows, KIND the kind and LEVELS the number of levels over the solids. Where IS_DEAR, KEY_OF takes
+// longer than to find out for all rays of a packet which outlines it is needed for, by MIDDLE_OF and SUPPORT_OF.
 //
 // The solids lie in such an order that each eight that begin with a multiple of eight are near each other, and so are
 // each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what is
 // in it. src/tracer/hierarchy.rs makes the order, and the boxes.
 
 // `group` of the kind, `first_group` before it. A loop's body may have come here for nothing: then it does not count.
-void TRY_EIGHT(uint outlines_begin, uint group, uint first_group, bool counts, Beam beam, inout Found found) {
-    uint first = outlines_begin + OUTLINE_ROWS * 8u * group;
+void TRY_EIGHT(uint begin, uint group, uint first_group, bool counts, Beam beam, Bundle bundle, inout Found found) {
+    uint first = begin + OUTLINE_ROWS * 8u * group;
     vec4 own_a = OWN_ROW(outlines, first, OUTLINE_ROWS);
     vec4 own_b = OUTLINE_ROWS == 1u ? vec4(0.0) : OWN_ROW(outlines, first + 1u, OUTLINE_ROWS);
-    Group eight = group_of(first_group + group, counts, beam);
-#define TRY_ONE(k)                                                                                                   \
-    {                                                                                                                \
-        vec4 a = ROW_OF_EIGHT(own_a, outlines, first, OUTLINE_ROWS, k);                                              \
-        vec4 b = OUTLINE_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own_b, outlines, first + 1u, OUTLINE_ROWS, k);        \
-        take(KEY_OF(a, b, beam, k), k, eight);                                                                       \
+#define A_OF_EIGHT(k) ROW_OF_EIGHT(own_a, outlines, first, OUTLINE_ROWS, k)
+#define B_OF_EIGHT(k) (OUTLINE_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own_b, outlines, first + 1u, OUTLINE_ROWS, k))
+#define TRY_ONE(k) take(KEY_OF(A_OF_EIGHT(k), B_OF_EIGHT(k), beam, k), k, eight);
+#if OCTETS && IS_DEAR
+    vec3 middle = MIDDLE_OF(own_a, own_b), normal = edge_normal(bundle, middle);
+    float normal_support = SUPPORT_OF(own_a, own_b, normal), ahead_support = SUPPORT_OF(own_a, own_b, bundle.direction);
+    uint left = solids_ahead(bundle, middle, normal, normal_support, ahead_support, found.limit);
+    Group eight = group_of(first_group + group, counts && left != 0u, beam);
+    for (;;) {
+        turns++;
+        uint k = uint(findLSB(left)) & 7u;
+        TRY_ONE(k)
+        left &= left - 1u;
+        if (left == 0u) break;
     }
+#else
+    Group eight = group_of(first_group + group, counts, beam);
     EIGHT_TIMES(TRY_ONE)
-#undef TRY_ONE
+#endif
     uint place = (eight.key + eight.first_key) & 7u;
-    vec4 a = ROW_OF_EIGHT(own_a, outlines, first, OUTLINE_ROWS, place);
-    vec4 b = OUTLINE_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own_b, outlines, first + 1u, OUTLINE_ROWS, place);
-    SETTLE(a, b, eight.key < eight.end, beam, found);
+    SETTLE(A_OF_EIGHT(place), B_OF_EIGHT(place), eight.key < eight.end, beam, found);
     take(eight, found);
+#undef A_OF_EIGHT
+#undef B_OF_EIGHT
+#undef TRY_ONE
 }
 
 // A ray, or a packet of eight, goes down group by group: `left` keeps, from bit 8 * (h - 2) on, which boxes of level h,
 // in their order, are still to be gone into. Those of level 1 are gone into at once. What a level holds backwards has
 // its bit in `backwards`.
-void SEARCH(Beam beam, bool is_searching, inout Found found) {
+void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
     uint count = frame.counts[KIND], first_group = first_slots()[KIND] / 8u, items = frame.outlines[KIND];
     if (!is_searching) found.limit = HIDDEN;
     if (LEVELS == 0u) {
         uint group = 0u;
         for (;;) {
             turns++;
-            TRY_EIGHT(items, group, first_group, true, beam, found);
+            TRY_EIGHT(items, group, first_group, true, beam, bundle, found);
             group++;
             if (8u * group >= count) break;
         }
@@ -94,7 +106,7 @@ void SEARCH(Beam beam, bool is_searching, inout Found found) {
                 uint place = uint(are_leaves_backwards ? findMSB(leaves) : findLSB(leaves));
                 place = is_leaf ? place : 0u;
                 leaves &= ~(1u << place);
-                TRY_EIGHT(items, 8u * path + place, first_group, is_leaf, beam, found);
+                TRY_EIGHT(items, 8u * path + place, first_group, is_leaf, beam, bundle, found);
                 // What was met for sure hides what lies behind it.
                 leaves &= boxes_ahead(entries, found.limit);
                 if (leaves == 0u) break;

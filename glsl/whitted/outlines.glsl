@@ -107,6 +107,9 @@ uint key_of_cylinder(vec4 a, vec4 b, Beam beam, uint k) {
     return key_of(near + (closest_t - 4.0 * place_error()), never, k);
 }
 
+vec3 middle_of_cylinder(vec4 a, vec4 b) { return a.xyz; }
+float support_of_cylinder(vec4 a, vec4 b, vec3 normal) { return a.w + b.w * abs(dot(b.xyz, normal)); }
+
 void settle_cylinder(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {}
 
 // Below this sine of the half-angle a cone is taken for all between the planes of its apex and its base.
@@ -153,6 +156,13 @@ uint key_of_cone(vec4 a, vec4 b, Beam beam, uint k) {
     int never = if_negative(b.w) | if_negative(far - near) | if_negative(far + (closest_t + place_error()));
     never |= has_side && crosses ? if_negative(discriminant + error) : 0;
     return key_of(near + (closest_t - 4.0 * place_error()), never, k);
+}
+
+vec3 middle_of_cone(vec4 a, vec4 b) { return a.xyz + (0.5 * a.w) * b.xyz; }
+// Of the cylinder around it.
+float support_of_cone(vec4 a, vec4 b, vec3 normal) {
+    float base_radius = a.w * (2.0 * b.w) / ((1.0 - b.w) * (1.0 + b.w));
+    return base_radius + (0.5 * a.w) * abs(dot(b.xyz, normal));
 }
 
 void settle_cone(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {}

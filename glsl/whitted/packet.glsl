@@ -23,7 +23,6 @@ uint bits_of_packet(uint mine) {
     return all;
 }
 
-// Where the packet's rays go, all in all; of invocations that count for nothing, the zero vector.
 vec3 of_packet(vec3 mine) {
     vec3 sum = mine;
     sum += subgroupShuffleXor(sum, 1u);
@@ -31,6 +30,25 @@ vec3 of_packet(vec3 mine) {
     sum += subgroupShuffleXor(sum, 4u);
     return sum;
 }
+
+vec4 of_packet(vec4 mine) {
+    vec4 sum = mine;
+    sum += subgroupShuffleXor(sum, 1u);
+    sum += subgroupShuffleXor(sum, 2u);
+    sum += subgroupShuffleXor(sum, 4u);
+    return sum;
+}
+
+int greatest_of_packet(int mine) {
+    int greatest = mine;
+    greatest = max(greatest, subgroupShuffleXor(greatest, 1u));
+    greatest = max(greatest, subgroupShuffleXor(greatest, 2u));
+    greatest = max(greatest, subgroupShuffleXor(greatest, 4u));
+    return greatest;
+}
+
+// Of numbers from 0 on.
+float greatest_of_packet(float mine) { return intBitsToFloat(greatest_of_packet(floatBitsToInt(mine))); }
 
 // Row `first + stride * k`, k < 8, of which this invocation has fetched the one with its own number.
 #define OWN_ROW(rows, first, stride) texelFetch(rows, int((first) + (stride) * gl_SubgroupInvocationID))

@@ -1,6 +1,8 @@
 // All kinds' hierarchies, for the next candidate of a ray.
 #include "boxes_of_eight.glsl"
+#include "bundle.glsl"
 
+#define IS_DEAR 0
 #define SEARCH search_spheres
 #define TRY_EIGHT try_eight_spheres
 #define KEY_OF key_of_sphere
@@ -32,10 +34,14 @@
 #undef KIND
 #undef LEVELS
 
+#undef IS_DEAR
+#define IS_DEAR 1
 #define SEARCH search_cylinders
 #define TRY_EIGHT try_eight_cylinders
 #define KEY_OF key_of_cylinder
 #define SETTLE settle_cylinder
+#define MIDDLE_OF middle_of_cylinder
+#define SUPPORT_OF support_of_cylinder
 #define KIND 2u
 #define LEVELS CYLINDER_LEVELS
 #include "hierarchy.glsl"
@@ -43,6 +49,8 @@
 #undef TRY_EIGHT
 #undef KEY_OF
 #undef SETTLE
+#undef MIDDLE_OF
+#undef SUPPORT_OF
 #undef KIND
 #undef LEVELS
 
@@ -50,6 +58,8 @@
 #define TRY_EIGHT try_eight_cones
 #define KEY_OF key_of_cone
 #define SETTLE settle_cone
+#define MIDDLE_OF middle_of_cone
+#define SUPPORT_OF support_of_cone
 #define KIND 3u
 #define LEVELS CONE_LEVELS
 #include "hierarchy.glsl"
@@ -57,16 +67,20 @@
 #undef TRY_EIGHT
 #undef KEY_OF
 #undef SETTLE
+#undef MIDDLE_OF
+#undef SUPPORT_OF
 #undef OUTLINE_ROWS
 #undef KIND
 #undef LEVELS
+#undef IS_DEAR
 
 // A kind's search shrinks the limit for the next.
 Found next_candidate(Beam beam, float limit, bool is_searching) {
     Found found = Found(NO_KEY, 0, NO_KEY, limit);
-    if (HAS_SPHERES) search_spheres(beam, is_searching, found);
-    if (HAS_BOXES) search_boxes(beam, is_searching, found);
-    if (HAS_CYLINDERS) search_cylinders(beam, is_searching, found);
-    if (HAS_CONES) search_cones(beam, is_searching, found);
+    Bundle bundle = bundle_of(beam, is_searching);
+    if (HAS_SPHERES) search_spheres(beam, bundle, is_searching, found);
+    if (HAS_BOXES) search_boxes(beam, bundle, is_searching, found);
+    if (HAS_CYLINDERS) search_cylinders(beam, bundle, is_searching, found);
+    if (HAS_CONES) search_cones(beam, bundle, is_searching, found);
     return found;
 }
