@@ -82,10 +82,10 @@ layout(constant_id = 11) const uint CYLINDER_LEVELS = 0u;
 layout(constant_id = 12) const uint CONE_LEVELS = 0u;
 // What there is not, or the plan has left out.
 layout(constant_id = 13) const bool HAS_HIGHLIGHTS = true;
-layout(constant_id = 14) const bool HAS_LIGHTS = true;
+layout(constant_id = 14) const uint LIGHTS = 2u; // none, one, or several
 layout(constant_id = 15) const bool HAS_SHADOWS = true;
 layout(constant_id = 16) const bool HAS_REFLECTIONS = true;
-layout(constant_id = 17) const bool HAS_BALLS = true;
+layout(constant_id = 17) const uint BALLS = 2u; // of lights, that primary rays may see: as many
 
 // Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 turns of all of them together: there
 // the search ends before that, and says so.

@@ -29,7 +29,7 @@ Real light_ball_ahead(Ray ray, out Real3 intensity) {
         if (is_seen) intensity = light.intensity;
         t = is_seen ? ball.t : t;
         i++;
-        if (!(i < frame.light_count)) break;
+        if (BALLS == 1u || !(i < frame.light_count)) break;
     }
     return t;
 }
@@ -53,7 +53,7 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
     Departure departure = Departure(NOTHING, CURVED, false);
     Real3 ball_intensity = Real3(0.0);
     Real ball_t = LARGEST;
-    if (HAS_BALLS) ball_t = light_ball_ahead(ray, ball_intensity);
+    if (BALLS > 0u) ball_t = light_ball_ahead(ray, ball_intensity);
 
     // The nearest hit so far of the ray, and then what its lights add up to.
     Hit nearest;
@@ -77,9 +77,10 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
         beam.skipped = departure.slot;
         beam.after_key = after_key;
         beam.after_group = after_group;
-        beam.target_size = purpose == TO_LIGHT ? float(min(largest_component(lamp.position), Real(FAR))) : -1.0;
+        bool is_shadow_ray = HAS_SHADOWS && purpose == TO_LIGHT;
+        beam.target_size = is_shadow_ray ? float(min(largest_component(lamp.position), Real(FAR))) : -1.0;
         Found found = next_candidate(beam, limit, purpose != ENDED && !is_own_due);
-        bool is_hidden = purpose == TO_LIGHT && !is_own_due && found.limit == HIDDEN;
+        bool is_hidden = is_shadow_ray && !is_own_due && found.limit == HIDDEN;
         uint last_key = uint(floatBitsToInt(limit)) | 7u;
         bool is_candidate = is_own_due || (found.key <= last_key && !is_hidden);
 
@@ -95,7 +96,10 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
             is_hit = true;
             limit = up_to(hit.t);
         }
-        is_hidden = is_hidden || (purpose == TO_LIGHT && is_met && is_before(hit, ray, lamp.position, light_distance));
+        if (HAS_SHADOWS) {
+            bool is_met_before = is_shadow_ray && is_met && is_before(hit, ray, lamp.position, light_distance);
+            is_hidden = is_hidden || is_met_before;
+        }
         // Whether another candidate may come before what is known.
         last_key = uint(floatBitsToInt(limit)) | 7u;
         bool goes_on = is_candidate && !is_hidden && (is_own_due || found.next_key <= last_key);
@@ -104,24 +108,23 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
         is_own_due = false;
 
         if (purpose != ENDED && !goes_on) {
-            bool is_light = purpose == TO_LIGHT;
-            bool is_last = !is_light && (!is_hit || (generation == 0u && ball_t < nearest.t));
-            if (is_light && !is_hidden) emitted = limited(emitted + sent);
+            bool is_last = !is_shadow_ray && (!is_hit || (generation == 0u && ball_t < nearest.t));
+            if (is_shadow_ray && !is_hidden) emitted = limited(emitted + sent);
             if (is_last) {
                 Real3 seen = generation == 0u && ball_t < LARGEST ? ball_intensity : background;
                 color = limited(color + weight * seen);
             }
-            if (!is_light && !is_last) {
+            if (!is_shadow_ray && !is_last) {
                 departure = Departure(nearest.slot, nearest.face, nearest.inside);
                 emitted = matter.ambient * matter.color;
                 ray_direction = ray.direction;
             }
 
             // On to the next light that a shadow ray is worth, or to the reflection.
-            light_index = is_light ? light_index + 1u : 0u;
+            light_index = is_shadow_ray ? light_index + 1u : 0u;
             bool is_lit = false;
             Real3 light_direction = Real3(0.0);
-            if (HAS_LIGHTS) {
+            if (LIGHTS > 0u) {
                 for (;;) {
                     turns++;
                     lamp = light(light_index);
@@ -135,7 +138,7 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
                     is_lit = HAS_SHADOWS && shines && !is_faint;
                     if (shines && !is_lit) emitted = limited(emitted + (is_faint ? Real3(0.5) * sent : sent));
                     light_index += is_lit ? 0u : 1u;
-                    if (is_lit || light_index >= frame.light_count) break;
+                    if (LIGHTS == 1u || is_lit || light_index >= frame.light_count) break;
                 }
             }
 

@@ -76,22 +76,26 @@ pub struct Requirements {
     pub levels: [u32; 4],
     pub are_boxes_upright: bool,
     pub highlights: bool,
-    pub balls: bool,
-    pub lights: bool,
+    /// Whose balls primary rays may see: none, one, or several (2).
+    pub balls: u32,
+    /// That brighten: as many.
+    pub lights: u32,
     pub shadows: bool,
     pub reflections: bool,
 }
 
 impl Requirements {
     pub fn of(records: &WhittedRecords, cuts: &Cuts, max_depth: u32) -> Self {
+        let lights = |matter: bool| if matter { records.light_count.min(2) } else { 0 };
+        let has_lights = lights(cuts.lights) > 0;
         Self {
             kinds: records.solids.counts.map(|count| count > 0),
             levels: records.solids.levels,
             are_boxes_upright: records.solids.are_boxes_upright,
-            highlights: cuts.highlights,
-            balls: cuts.balls && records.light_count > 0,
-            lights: cuts.lights && records.light_count > 0,
-            shadows: cuts.shadows,
+            highlights: cuts.highlights && has_lights,
+            balls: lights(cuts.balls),
+            lights: lights(cuts.lights),
+            shadows: cuts.shadows && has_lights,
             reflections: cuts.reflections && max_depth > 1,
         }
     }
@@ -129,10 +133,10 @@ impl Requirements {
             cylinder_levels,
             cone_levels,
             u32::from(highlights),
-            u32::from(lights),
+            lights,
             u32::from(shadows),
             u32::from(reflections),
-            u32::from(balls),
+            balls,
         ])
     }
 }
