@@ -11,7 +11,7 @@ use zerkalo::frame::Frame;
 use zerkalo::reference::{BACKGROUND, LIGHT_BALL};
 use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, Solid, SolidKind, gallery};
 use zerkalo::tracer::hierarchy::{Bounds, GROUP, level_count, levels, order};
-use zerkalo::tracer::{Kernel, KernelFrame, Precision, Settings, bounds};
+use zerkalo::tracer::{Kernel, KernelFrame, Precision, Settings, WhittedRecords, bounds};
 
 fn made(name: &str) -> Scene {
     gallery::scene(name).unwrap_or_else(|| panic!("no scene {name}"))
@@ -65,6 +65,42 @@ fn boxes_hold_what_is_below_them_and_a_level_has_an_eighth_of_it() {
             }
             below = &level.boxes;
         }
+    }
+}
+
+/// What the search skips boxes by: rows of a box hold those of all boxes in it, and more by what an entry may be off.
+#[test]
+fn rows_of_boxes_hold_those_below_them_by_four_place_errors() {
+    let scene = made("cloud-sphere-5000");
+    let records = WhittedRecords::of(&scene, KernelFrame::of(&scene), Precision::F32, [1, 1]);
+    let solids = &records.solids;
+    let faces = |rows: &[[f32; 4]]| {
+        let [middle, half] = [rows[0], rows[1]].map(|[x, y, z, _]| DVec3::new(x.into(), y.into(), z.into()));
+        (middle - half, middle + half)
+    };
+    let place_error = f64::from(8.0 * f32::EPSILON * solids.frame.reach);
+    let mut first = solids.counts[0].next_multiple_of(8) as usize;
+    let mut count = solids.counts[0].div_ceil(8) as usize;
+    assert_eq!(solids.levels[0], 3);
+    for _ in 1..solids.levels[0] {
+        let above = first + 2 * count.next_multiple_of(8);
+        for index in 0..count {
+            let (low, high) = faces(&solids.outlines[first + 2 * index..]);
+            let (outer_low, outer_high) = faces(&solids.outlines[above + 2 * (index / 8)..]);
+            let margin = (low - outer_low).min(outer_high - high).min_element();
+            assert!(margin > 3.5 * place_error, "box {index}: {} place errors", margin / place_error);
+        }
+        (first, count) = (above, count.div_ceil(8));
+    }
+}
+
+/// Where Mesa's CPU drivers allow a pixel no more than so many turns of its loops.
+#[test]
+fn a_million_solids_are_drawn_whole() {
+    let device = TestDevice::open();
+    for name in ["squares-1000000", "cloud-1000000"] {
+        let settings = Settings { kernel: Kernel::Whitted(Precision::F32), ..Settings::new(96, 41) };
+        assert!(colors(&render(&device, &made(name), &settings)) > 200, "{name}: little is seen");
     }
 }
 

@@ -66,8 +66,11 @@ Beam beam_of(Ray ray) {
 // All bits where a number is negative.
 int if_negative(float number) { return floatBitsToInt(number) >> 31; }
 
-// A candidate of place `k` in its group that may be met from `t` on, unless `never` has a bit.
-uint key_of(float t, int never, uint k) { return (uint(max(floatBitsToInt(t), 0)) & ~7u | k) | uint(never); }
+// A candidate of place `k` in its group that may be met from `t` on, and from its box's entry, unless `never` has a bit.
+// A box that is entered behind a candidate so has none in it that comes before that one.
+uint key_of(float t, int never, int entry, uint k) {
+    return (uint(max(floatBitsToInt(t), entry)) & ~7u | k) | uint(never);
+}
 
 // What a search makes of a group's keys, each less the first that counts: what has been tried becomes larger than all
 // others by that.

@@ -7,9 +7,19 @@ struct Entries {
 
 const int NOT_MET = 0x7FFFFFFF;
 
-// Which of the boxes the ray, or any of its packet, may still meet before its limit: a bit each.
-uint boxes_ahead(Entries entries, float limit) {
-    int end = floatBitsToInt(limit);
+int entry_of(Entries entries, uint place) {
+    int entry = entries.at[0];
+#define CHOOSE_ONE(k) entry = place == k ? entries.at[k] : entry;
+    EIGHT_TIMES(CHOOSE_ONE)
+#undef CHOOSE_ONE
+    return entry;
+}
+
+// What lies beyond is of no interest: beyond the limit, or behind two candidates.
+int end_of(Found found) { return min(floatBitsToInt(found.limit), int(min(found.next_key | 7u, uint(NOT_MET) - 1u))); }
+
+// Which of the boxes the ray, or any of its packet, enters before the end: a bit each.
+uint boxes_ahead(Entries entries, int end) {
     uint ahead = 0u;
 #define COMPARE_ONE(k) ahead |= entries.at[k] > end ? 0u : 1u << k;
     EIGHT_TIMES(COMPARE_ONE)

@@ -6,14 +6,16 @@
 // each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what is
 // in it. src/tracer/hierarchy.rs makes the order, and the boxes.
 
-// `group` of the kind, `first_group` before it. A loop's body may have come here for nothing: then it does not count.
-void TRY_EIGHT(uint begin, uint group, uint first_group, bool counts, Beam beam, Bundle bundle, inout Found found) {
-    uint first = begin + OUTLINE_ROWS * 8u * group;
+// A group of the kind, and where the ray enters the box around it. A loop's body may have come here for nothing: then it
+// does not count.
+void TRY_EIGHT(uint group, int entry, bool counts, Beam beam, Bundle bundle, inout Found found) {
+    uint first_group = first_slots()[KIND] / 8u;
+    uint first = frame.outlines[KIND] + OUTLINE_ROWS * 8u * group;
     vec4 own_a = OWN_ROW(outlines, first, OUTLINE_ROWS);
     vec4 own_b = OUTLINE_ROWS == 1u ? vec4(0.0) : OWN_ROW(outlines, first + 1u, OUTLINE_ROWS);
 #define A_OF_EIGHT(k) ROW_OF_EIGHT(own_a, outlines, first, OUTLINE_ROWS, k)
 #define B_OF_EIGHT(k) (OUTLINE_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own_b, outlines, first + 1u, OUTLINE_ROWS, k))
-#define TRY_ONE(k) take(KEY_OF(A_OF_EIGHT(k), B_OF_EIGHT(k), beam, k), k, eight);
+#define TRY_ONE(k) take(KEY_OF(A_OF_EIGHT(k), B_OF_EIGHT(k), beam, entry, k), k, eight);
 #if OCTETS && IS_DEAR
     vec3 middle = MIDDLE_OF(own_a, own_b), normal = edge_normal(bundle, middle);
     float normal_support = SUPPORT_OF(own_a, own_b, normal), ahead_support = SUPPORT_OF(own_a, own_b, bundle.direction);
@@ -42,13 +44,13 @@ void TRY_EIGHT(uint begin, uint group, uint first_group, bool counts, Beam beam,
 // in their order, are still to be gone into. Those of level 1 are gone into at once. What a level holds backwards has
 // its bit in `backwards`.
 void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
-    uint count = frame.counts[KIND], first_group = first_slots()[KIND] / 8u, items = frame.outlines[KIND];
+    uint count = frame.counts[KIND];
     if (!is_searching) found.limit = HIDDEN;
     if (LEVELS == 0u) {
         uint group = 0u;
         for (;;) {
             turns++;
-            TRY_EIGHT(items, group, first_group, true, beam, bundle, found);
+            TRY_EIGHT(group, 0, true, beam, bundle, found);
             group++;
             if (8u * group >= count) break;
         }
@@ -56,7 +58,7 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
         // Where the boxes of each level begin.
         uint rows[7];
         uint boxes = eighths(count);
-        rows[1] = items + OUTLINE_ROWS * padded(count);
+        rows[1] = frame.outlines[KIND] + OUTLINE_ROWS * padded(count);
         [[unroll]] for (uint h = 2u; h <= 6u; h++) {
             rows[h] = rows[h - 1u] + 2u * padded(boxes);
             boxes = h <= LEVELS ? eighths(boxes) : boxes;
@@ -87,7 +89,7 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
                 [[unroll]] for (uint h = 2u; h <= 6u; h++) first = h <= LEVELS && level == h ? rows[h] : first;
                 uint order;
                 entries = enter_boxes(first + 16u * group, beam, order);
-                leaves = boxes_ahead(entries, found.limit);
+                leaves = boxes_ahead(entries, end_of(found));
                 are_leaves_backwards = heading[order] < 0.0;
                 uint met = are_leaves_backwards ? bitfieldReverse(leaves) >> 24 : leaves;
                 uint backwards_bit = 1u << (level - 1u);
@@ -106,9 +108,8 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
                 uint place = uint(are_leaves_backwards ? findMSB(leaves) : findLSB(leaves));
                 place = is_leaf ? place : 0u;
                 leaves &= ~(1u << place);
-                TRY_EIGHT(items, 8u * path + place, first_group, is_leaf, beam, bundle, found);
-                // What was met for sure hides what lies behind it.
-                leaves &= boxes_ahead(entries, found.limit);
+                TRY_EIGHT(8u * path + place, entry_of(entries, place), is_leaf, beam, bundle, found);
+                leaves &= boxes_ahead(entries, end_of(found));
                 if (leaves == 0u) break;
             }
             bool ends = (left.x | left.y) == 0u || turns >= LOOP_TURNS;

@@ -37,13 +37,13 @@ Chord chord_of(vec4 a, Beam beam) {
 // a: centre, radius; larger by DISTANCE_ERROR times the radius and by a place error, for the rounding of the centre and
 // the ray to float (7u * reach in place and as much by the direction, of the double kernel; of the float kernel the
 // camera's 4u). Of an outline of nothing, negative.
-uint key_of_sphere(vec4 a, vec4 b, Beam beam, uint k) {
+uint key_of_sphere(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     Chord chord = chord_of(a, beam);
     // Not a number where there is none.
     float half_chord = sqrt(chord.half_squared);
     float leaves = chord.ahead + (half_chord + 3.0 * place_error());
     int never = (floatBitsToInt(a.w) | floatBitsToInt(chord.half_squared) | floatBitsToInt(leaves)) >> 31;
-    return key_of(chord.ahead - (half_chord + 3.0 * place_error()), never, k);
+    return key_of(chord.ahead - (half_chord + 3.0 * place_error()), never, entry, k);
 }
 
 void settle_sphere(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
@@ -59,11 +59,11 @@ void settle_sphere(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) 
 }
 
 // a: centre; b: half sizes and, where the box is no more than its outline, 1. Both rounded outwards by 2 place errors.
-uint key_of_box(vec4 a, vec4 b, Beam beam, uint k) {
+uint key_of_box(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     vec3 middle = (a.xyz - beam.origin) * beam.inverse;
     vec3 reach = b.xyz * abs(beam.inverse);
     ivec3 enters = floatBitsToInt(middle - reach), leaves = floatBitsToInt(middle + reach);
-    int near = max(max(enters.x, enters.y), max(enters.z, 0));
+    int near = max(max(enters.x, enters.y), max(enters.z, entry));
     int far = min(min(leaves.x, leaves.y), leaves.z);
     return far < near ? 0xFFFFFFFFu : uint(near) & ~7u | k;
 }
@@ -81,7 +81,7 @@ void settle_box(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
 }
 
 // a: middle between the ends, radius; b: unit axis, half length.
-uint key_of_cylinder(vec4 a, vec4 b, Beam beam, uint k) {
+uint key_of_cylinder(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     vec3 from_middle = beam.origin - a.xyz;
     float closest_t = -dot(from_middle, beam.direction);
     vec3 closest = from_middle + closest_t * beam.direction;
@@ -104,7 +104,7 @@ uint key_of_cylinder(vec4 a, vec4 b, Beam beam, uint k) {
     float near = max(side_near, end_near), far = min(side_far, end_far);
     int never = if_negative(b.w) | if_negative(far - near) | if_negative(far + (closest_t + place_error()));
     never |= has_side ? if_negative(chord_squared + error) : 0;
-    return key_of(near + (closest_t - 4.0 * place_error()), never, k);
+    return key_of(near + (closest_t - 4.0 * place_error()), never, entry, k);
 }
 
 vec3 middle_of_cylinder(vec4 a, vec4 b) { return a.xyz; }
@@ -116,7 +116,7 @@ void settle_cylinder(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found
 const float LEAST_SINE = 0.015625;
 
 // a: apex, height; b: unit axis, tangent of half the half-angle.
-uint key_of_cone(vec4 a, vec4 b, Beam beam, uint k) {
+uint key_of_cone(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     vec3 from_apex = beam.origin - a.xyz;
     float closest_t = -dot(from_apex, beam.direction);
     vec3 closest = from_apex + closest_t * beam.direction;
@@ -155,7 +155,7 @@ uint key_of_cone(vec4 a, vec4 b, Beam beam, uint k) {
     float near = max(side_near, end_near), far = min(side_far, end_far);
     int never = if_negative(b.w) | if_negative(far - near) | if_negative(far + (closest_t + place_error()));
     never |= has_side && crosses ? if_negative(discriminant + error) : 0;
-    return key_of(near + (closest_t - 4.0 * place_error()), never, k);
+    return key_of(near + (closest_t - 4.0 * place_error()), never, entry, k);
 }
 
 vec3 middle_of_cone(vec4 a, vec4 b) { return a.xyz + (0.5 * a.w) * b.xyz; }

@@ -36,7 +36,7 @@ pub fn outline(solid: &Solid, bounds: Bounds, frame: KernelFrame) -> impl Iterat
             (sphere, None)
         }
         Solid::Box { .. } => {
-            let [middle, half_size] = box_rows(bounds, frame, if is_turned(solid) { 0.0 } else { 1.0 });
+            let [middle, half_size] = box_rows(bounds, frame, 2.0, if is_turned(solid) { 0.0 } else { 1.0 });
             (middle, Some(half_size))
         }
         Solid::Cylinder { ends: [a, b], radius } => {
@@ -68,19 +68,24 @@ pub fn is_turned(solid: &Solid) -> bool {
     matches!(solid, Solid::Box { rotation_degrees, .. } if *rotation_degrees != DVec3::ZERO)
 }
 
-/// Middle and half size, rounded outwards.
-fn box_rows(bounds: Bounds, frame: KernelFrame, fourth: f32) -> [Row; 2] {
+/// Middle and half size, rounded outwards by so many place errors.
+fn box_rows(bounds: Bounds, frame: KernelFrame, place_errors: f32, fourth: f32) -> [Row; 2] {
     let [x, y, z] = bounds.low.midpoint(bounds.high).as_vec3().to_array();
     let [half_x, half_y, half_z] = ((bounds.high - bounds.low) * 0.5).as_vec3().to_array();
-    let outwards = 2.0 * place_error(frame);
+    let outwards = place_errors * place_error(frame);
     [[x, y, z, 0.0], [half_x + outwards, half_y + outwards, half_z + outwards, fourth]]
 }
 
-/// Two rows a box, in whole groups.
-pub fn level_rows(level: &Level, frame: KernelFrame) -> Vec<Row> {
+/// Two rows a box, in whole groups. `height`: of the level, from 1 on.
+///
+/// As the kernel computes it, no box is entered before the one around it: either t is off by a place error at most, at a
+/// slope of 1, the rows by half of one, and each level is larger than what is in it by four.
+pub fn level_rows(level: &Level, height: usize, frame: KernelFrame) -> Vec<Row> {
+    let place_errors = (4 * height - 2) as f32;
     let boxes = level.boxes.par_iter().enumerate();
-    let mut rows: Vec<_> =
-        boxes.flat_map_iter(|(index, bounds)| box_rows(*bounds, frame, level.orders[index / GROUP] as f32)).collect();
+    let mut rows: Vec<_> = boxes
+        .flat_map_iter(|(index, bounds)| box_rows(*bounds, frame, place_errors, level.orders[index / GROUP] as f32))
+        .collect();
     let missing = level.boxes.len().next_multiple_of(GROUP) - level.boxes.len();
     rows.extend(std::iter::repeat_n(NO_BOX, missing).flatten());
     rows

@@ -149,8 +149,8 @@ impl SolidRecords {
         );
         let missing = bounds.len().next_multiple_of(GROUP) - bounds.len();
         self.outlines.extend(std::iter::repeat_n(nothing(kind), missing).flatten());
-        for level in &levels {
-            self.outlines.extend(level_rows(level, frame));
+        for (height, level) in (1..).zip(&levels) {
+            self.outlines.extend(level_rows(level, height, frame));
         }
         self.are_boxes_upright &= !ordered().any(|(_, primitive)| is_turned(&primitive.solid));
         let rows = &mut self.rows[kind as usize];
