@@ -232,12 +232,12 @@ impl Wishes {
 
 /// Rows of four numbers in the kernel's records: of a solid of each kind, of its outline, of a box around solids, a
 /// material, the view and a light (`glsl/whitted/scene.glsl`).
-const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
+pub(crate) const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
+pub(crate) const MATERIAL_ROWS: usize = 2;
+pub(crate) const VIEW_ROWS: usize = 6;
+pub(crate) const LIGHT_ROWS: usize = 2;
 const OUTLINE_ROWS: [usize; 4] = [1, 2, 2, 2];
 const BOX_ROWS: usize = 2;
-const MATERIAL_ROWS: usize = 2;
-const VIEW_ROWS: usize = 4;
-const LIGHT_ROWS: usize = 2;
 
 /// Refuses a scene that does not fit the device's arrays. Solids and boxes come in whole groups.
 fn check_arrays(scene: &Scene, counts: [usize; 4], precision: Precision, limits: &Limits) -> Result<(), PlanError> {

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::hierarchy::{self, Bounds, GROUP, Level};
 use super::kernel_frame::{KernelFrame, Reach, two_sum};
 use super::outlines::{bounds, is_turned, level_rows, nothing, outline};
-use crate::plan::Precision;
+use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, SOLID_ROWS, VIEW_ROWS};
 use crate::scene::{Camera, Light, Primitive, Projection, Scene, Solid, SolidKind, world_from_box};
 
 /// Lights farther than this many times the largest primitive are moved here along their direction: parallel light to
@@ -192,10 +192,6 @@ fn half_surface(bounds: &Bounds) -> f64 {
     side.x * side.y + side.y * side.z + side.z * side.x
 }
 
-/// Rows of a record of each kind, in the order of [`SolidKind::ALL`], and of a material.
-const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
-const MATERIAL_ROWS: usize = 2;
-
 pub(super) fn row(vector: DVec3, fourth: f64) -> [f64; 4] {
     [vector.x, vector.y, vector.z, fourth]
 }
@@ -272,7 +268,7 @@ pub(super) fn unit((value, error): (DVec3, DVec3)) -> (DVec3, DVec3) {
 }
 
 /// `Light`
-fn light_rows(light: &Light, frame: KernelFrame) -> [[f64; 4]; 2] {
+fn light_rows(light: &Light, frame: KernelFrame) -> [[f64; 4]; LIGHT_ROWS] {
     let position = frame.point(light.position);
     let nearer = (FARTHEST_LIGHT / position.abs().max_element()).min(1.0);
     // The ball keeps the angle under which the camera sees it.
@@ -280,7 +276,7 @@ fn light_rows(light: &Light, frame: KernelFrame) -> [[f64; 4]; 2] {
 }
 
 /// `View`
-fn view(scene: &Scene, frame: KernelFrame, precision: Precision, width: u32, height: u32) -> [[f64; 4]; 6] {
+fn view(scene: &Scene, frame: KernelFrame, precision: Precision, width: u32, height: u32) -> [[f64; 4]; VIEW_ROWS] {
     let Camera { position, direction, up, vertical_fov_degrees, projection } = scene.camera;
     let (position, position_error) = precision.split(frame.exact_point(position));
     let unit = |vector| unit((vector, DVec3::ZERO)).0;
