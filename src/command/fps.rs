@@ -3,7 +3,6 @@
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Duration;
 
 use anyhow::{Context, Result};
@@ -13,10 +12,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use super::interrupt::Listener;
 use super::render::parse_size;
 use super::{DeviceArgs, print_line, refuse_messages};
-use crate::gpu::{Device, Validation};
-use crate::measure::fps_table::{self, Budget, FpsTable, FpsTableError, Machine, Plan, ReportFormat};
-use crate::scene::SolidKind;
+use crate::gpu::{Device, Messages, Validation};
+use crate::measure::fps_table::{
+    self, Budget, FpsTable, FpsTableError, FrameTime, Machine, OffScreen, Plan, ReportFormat, Stage,
+};
+use crate::scene::{Scene, SolidKind};
 use crate::tracer::TracerError;
+use crate::viewer::{Display, PictureWindow, Shown};
 
 /// Kernels that the table is of.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -56,6 +58,10 @@ pub struct FpsArgs {
     /// Go on with a table that was interrupted, on the same device and as it was begun
     #[arg(long, value_name = "JSON")]
     pub resume: Option<PathBuf>,
+    /// Show every frame in a window of the picture's size, without waiting for the display, and count the frames shown,
+    /// as the course work did
+    #[arg(long)]
+    pub in_window: bool,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -89,8 +95,11 @@ pub fn run(args: &FpsArgs) -> Result<()> {
     let begun = args.resume.as_deref().map(FpsTable::load).transpose()?;
     let plan = plan(args, begun.as_ref().map(|table| &table.plan));
     let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
-    let device = Device::open(args.device.device.as_deref(), validation)?;
-    let machine = Machine::of(device.description());
+    let mut display = args.in_window.then(|| Display::open(WITHOUT_WINDOW)).transpose()?;
+    let Scaffold { mut stage, machine, messages } = match &mut display {
+        Some(display) => in_window(display, args, &plan, validation)?,
+        None => off_screen(args, validation)?,
+    };
     let mut table = match (&args.resume, begun) {
         (Some(path), Some(begun)) => {
             begun.check_goes_on(path, &machine, &plan)?;
@@ -99,10 +108,9 @@ pub fn run(args: &FpsArgs) -> Result<()> {
         _ => FpsTable::new(machine, plan),
     };
     let outputs = outputs(args)?;
-    let messages = device.messages().clone();
 
-    let is_complete = fill(&mut table, &device, &outputs)?;
-    drop(device);
+    let is_complete = fill(&mut table, &mut *stage, &outputs)?;
+    drop(stage);
     save(&table, &outputs, |_| true)?;
     print_line(if args.json { table.to_json() } else { table.to_markdown() }.trim_end())?;
     warn_of_outliers(&table);
@@ -110,6 +118,60 @@ pub fn run(args: &FpsArgs) -> Result<()> {
         return Err(stopped(&table, args, &outputs).into());
     }
     refuse_messages(&messages.to_vec())
+}
+
+/// Where the frames are drawn, by what, and what validation says of it.
+struct Scaffold<'d> {
+    stage: Box<dyn Stage + 'd>,
+    machine: Machine,
+    messages: Messages,
+}
+
+const WITHOUT_WINDOW: &str = "without --in-window nothing need be shown";
+
+fn off_screen(args: &FpsArgs, validation: Validation) -> Result<Scaffold<'static>> {
+    let device = Device::open(args.device.device.as_deref(), validation)?;
+    Ok(Scaffold {
+        machine: Machine::of(device.description()),
+        messages: device.messages().clone(),
+        stage: Box::new(OffScreen::new(&device)),
+    })
+}
+
+fn in_window<'d>(
+    display: &'d mut Display,
+    args: &FpsArgs,
+    plan: &Plan,
+    validation: Validation,
+) -> Result<Scaffold<'d>> {
+    let messages = Messages::default();
+    let (wanted, size) = (args.device.device.as_deref(), [plan.width, plan.height]);
+    let window = PictureWindow::open(display, size, wanted, validation, &messages)?;
+    let present_mode = window.present_mode().map(str::to_owned);
+    let machine = Machine { present_mode, ..Machine::of(window.device().description()) };
+    Ok(Scaffold { stage: Box::new(InWindow { window, scene: Scene::default() }), machine, messages })
+}
+
+/// Frames that are shown.
+struct InWindow<'d> {
+    window: PictureWindow<'d>,
+    scene: Scene,
+}
+
+impl Stage for InWindow<'_> {
+    fn take_up(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError> {
+        self.scene = Scene { max_depth: plan.generations, ..scene.clone() };
+        Ok(())
+    }
+
+    fn draw(
+        &mut self,
+        kernel: fps_table::Kernel,
+        keep_going: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<FrameTime, TracerError> {
+        let Shown { gpu_time_ns, wall_time } = self.window.show(kernel.in_tracer(), &self.scene, keep_going)?;
+        Ok(FrameTime { gpu_time_ns, wall_time })
+    }
 }
 
 /// As told, else as begun, else as the course work's table with little time.
@@ -132,6 +194,7 @@ fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
         counts,
         budget: time.map_or(base.budget, Budget::lasting),
         validation: args.validate,
+        in_window: args.in_window,
     }
 }
 
@@ -152,14 +215,14 @@ fn outputs(args: &FpsArgs) -> Result<Vec<PathBuf>> {
 }
 
 /// Measures what is missing, and writes the table after every place of it; false after Ctrl-C.
-fn fill(table: &mut FpsTable, device: &Arc<Device>, outputs: &[PathBuf]) -> Result<bool> {
+fn fill(table: &mut FpsTable, stage: &mut dyn Stage, outputs: &[PathBuf]) -> Result<bool> {
     let missing = table.missing();
     // The more solids, the longer.
     let bar = progress_bar(missing.iter().map(|(_, count)| *count as u64).sum());
     let listener = Listener::start();
     for (kind, count) in missing {
         bar.set_message(format!("{count} of the kind {}", kind.name()));
-        let measured = fps_table::measure(device, &table.plan, kind, count, &mut || {
+        let measured = fps_table::measure(stage, &table.plan, kind, count, &mut || {
             bar.tick();
             if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
@@ -214,7 +277,8 @@ fn stopped(table: &FpsTable, args: &FpsArgs, outputs: &[PathBuf]) -> Stopped {
         Some(json) => {
             let more = args.output.iter().filter(|path| *path != json).map(|path| format!(" -o {path:?}"));
             let validate = if args.validate { " --validate" } else { "" };
-            format!("to go on: zerkalo fps --resume {json:?}{}{validate}", more.collect::<String>())
+            let in_window = if args.in_window { " --in-window" } else { "" };
+            format!("to go on: zerkalo fps --resume {json:?}{}{validate}{in_window}", more.collect::<String>())
         }
         None => "no file keeps their samples: name one by -o to go on from it".to_owned(),
     };

@@ -37,11 +37,9 @@ pub struct Options {
 /// Why there is no window, or none any more.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewerError {
-    #[error(
-        "no window can be opened here ({}); without a display, draw into a file: zerkalo render SCENE --output OUT.png",
-        without_place(.0)
-    )]
-    NoDisplay(EventLoopError),
+    /// `instead`: what works without one.
+    #[error("no window can be opened here ({}); {instead}", without_place(.reason))]
+    NoDisplay { reason: EventLoopError, instead: &'static str },
     #[error("could not open the window: {0}")]
     Window(#[from] OsError),
     #[error(transparent)]
@@ -86,7 +84,10 @@ impl Stopper {
 /// Opens the window on a document, and returns when it is closed, with what the validation layer said. `on_start` is
 /// given what closes it.
 pub fn run(document: Document, options: Options, on_start: impl FnOnce(Stopper)) -> Result<Messages, ViewerError> {
-    let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(ViewerError::NoDisplay)?;
+    let event_loop = EventLoop::<Wake>::with_user_event().build().map_err(|reason| {
+        let instead = "without a display, draw into a file: zerkalo render SCENE --output OUT.png";
+        ViewerError::NoDisplay { reason, instead }
+    })?;
     let folder = options.config_folder.as_deref();
     let remembered = folder.map(|folder| Preferences::load(&preferences::file_in(folder)));
     let (recovery, recovered) = Recovery::new(folder);

@@ -18,6 +18,7 @@ pub mod outline;
 pub mod panel;
 pub mod pick;
 mod picture_input;
+mod picture_window;
 pub mod preferences;
 mod recovery;
 pub mod recovery_file;
@@ -33,5 +34,6 @@ pub mod text;
 
 pub use app::{Options, Stopper, ViewerError, run};
 pub use document::Document;
+pub use picture_window::{Display, PictureWindow, Shown};
 pub use preferences::config_folder;
 pub use screen::ScreenError;

@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use ash::{khr, vk};
 
-use super::swapchain_choices::{choose_alpha, choose_extent, choose_format, choose_image_count, choose_present_mode};
+use super::swapchain_choices::{
+    choose_alpha, choose_extent, choose_format, choose_image_count, choose_present_mode, present_mode_name,
+};
 use crate::gpu::{Device, GpuError, Recorder, Resource, Semaphores, Surface, Use};
 
 /// A window's images with what is needed to fill them: first the picture is copied in, then the widgets are drawn.
@@ -12,6 +14,7 @@ pub struct Swapchain {
     raw: vk::SwapchainKHR,
     functions: khr::swapchain::Device,
     extent: vk::Extent2D,
+    present_mode: vk::PresentModeKHR,
     pub(super) render_pass: vk::RenderPass,
     images: Vec<Image>,
     /// Signalled when an image may be written; by turns, as the submissions that wait for them.
@@ -66,6 +69,7 @@ impl Swapchain {
         }
         let format = choose_format(&device.surface_formats(surface)?)
             .ok_or_else(|| GpuError::NoWindow("it offers no linear 8-bit format".to_owned()))?;
+        let present_mode = choose_present_mode(&device.present_modes(surface)?, waits_for_display);
         let info = vk::SwapchainCreateInfoKHR::default()
             .surface(surface.raw)
             .min_image_count(choose_image_count(&capabilities))
@@ -76,7 +80,7 @@ impl Swapchain {
             .image_usage(IMAGE_USE)
             .pre_transform(capabilities.current_transform)
             .composite_alpha(choose_alpha(capabilities.supported_composite_alpha))
-            .present_mode(choose_present_mode(&device.present_modes(surface)?, waits_for_display))
+            .present_mode(present_mode)
             .clipped(true);
         let functions = device.swapchain_functions();
         // Null handles until made; `Drop` ignores them, so a failure on the way leaks nothing.
@@ -86,6 +90,7 @@ impl Swapchain {
                 .map_err(GpuError::call(|| "create the swapchain"))?,
             functions,
             extent,
+            present_mode,
             render_pass: vk::RenderPass::null(),
             images: Vec::new(),
             acquired: [vk::Semaphore::null(); 2],
@@ -141,6 +146,11 @@ impl Swapchain {
     /// Pixels.
     pub fn extent(&self) -> vk::Extent2D {
         self.extent
+    }
+
+    /// Vulkan's word for how images are shown.
+    pub fn present_mode(&self) -> &'static str {
+        present_mode_name(self.present_mode)
     }
 
     /// Asks for the next image; `Err(Fit)` inside when there is none to be had from this swapchain, or none yet.

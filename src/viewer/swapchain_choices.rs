@@ -32,6 +32,15 @@ pub(super) fn choose_present_mode(modes: &[vk::PresentModeKHR], waits_for_displa
     chosen.unwrap_or(vk::PresentModeKHR::FIFO)
 }
 
+/// Of the modes that [`choose_present_mode`] chooses.
+pub(super) fn present_mode_name(mode: vk::PresentModeKHR) -> &'static str {
+    match mode {
+        vk::PresentModeKHR::MAILBOX => "mailbox",
+        vk::PresentModeKHR::IMMEDIATE => "immediate",
+        _ => "fifo",
+    }
+}
+
 /// One more than the least, so that none of them need be waited for while the window system holds the others.
 pub(super) fn choose_image_count(capabilities: &vk::SurfaceCapabilitiesKHR) -> u32 {
     let wanted = capabilities.min_image_count + 1;

@@ -8,6 +8,7 @@ mod editing;
 mod endings;
 mod endurance;
 mod files;
+mod fps;
 mod geometry;
 mod pictures;
 mod sizes;

@@ -7,7 +7,7 @@ const COLUMNS: &str = "kind,count,kernel,\
     gpu_fps,gpu_frames,gpu_median_ns,gpu_first_quartile_ns,gpu_third_quartile_ns,gpu_min_ns,gpu_max_ns,gpu_stddev_ns,gpu_outliers,\
     wall_fps,wall_frames,wall_median_ns,wall_first_quartile_ns,wall_third_quartile_ns,wall_min_ns,wall_max_ns,wall_stddev_ns,wall_outliers,\
     published_fps,of_fewest,published_of_fewest,of_spheres,published_of_spheres,\
-    width,height,generations,device,driver,program,validation";
+    width,height,generations,device,driver,program,validation,present_mode";
 
 /// A line a cell below the columns' names (RFC 4180); the machine stands in every line, so that none is read without it.
 pub fn of(table: &FpsTable) -> String {
@@ -33,7 +33,7 @@ fn line(table: &FpsTable, figures: &Figures) -> String {
         .to_vec(),
         [plan.width, plan.height, plan.generations].map(|number| number.to_string()).to_vec(),
         [&machine.device, &machine.driver, &machine.program].map(|text| quoted(text)).to_vec(),
-        vec![plan.validation.to_string()],
+        vec![plan.validation.to_string(), machine.present_mode.clone().unwrap_or_default()],
     ];
     fields.concat().join(",")
 }

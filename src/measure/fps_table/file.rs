@@ -14,7 +14,7 @@ use crate::frame::FrameError;
 use crate::whole_file::WholeFile;
 
 /// What a table's JSON says it is. The number is raised when an older program could not read it rightly.
-const FORMAT: &str = "zerkalo-fps-1";
+const FORMAT: &str = "zerkalo-fps-2";
 
 /// Why a table could not be read, written or gone on with; each message is one line.
 #[derive(Debug, Error)]
@@ -282,7 +282,7 @@ mod tests {
             let error = FpsTable::load(&path).unwrap_err();
             assert!(error.is_input_error() && error.to_string().contains(word), "{word}: {error}");
         }
-        for (text, word) in [("", "EOF"), ("{}", "format"), ("{\"format\": \"zerkalo-fps-0\"}", "zerkalo-fps-1")] {
+        for (text, word) in [("", "EOF"), ("{}", "format"), ("{\"format\": \"zerkalo-fps-0\"}", "zerkalo-fps-2")] {
             fs::write(&path, text).unwrap();
             assert!(FpsTable::load(&path).unwrap_err().to_string().contains(word), "{text}");
         }

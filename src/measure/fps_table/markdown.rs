@@ -31,6 +31,9 @@ fn head(table: &FpsTable) -> Vec<String> {
             plan.budget.frames
         ),
     ];
+    if let Some(mode) = &machine.present_mode {
+        lines.push(format!("- in a window of the picture's size: {}", shown_by(mode)));
+    }
     if plan.validation {
         lines.push("- under validation: these speeds say nothing of the machine's".to_owned());
     }
@@ -50,6 +53,7 @@ fn of_kernel(table: &FpsTable, kernel: Kernel) -> Vec<String> {
     for shown in [Clock::Gpu, Clock::Wall] {
         let of = match shown {
             Clock::Gpu => "by GPU time (the tracing alone)",
+            Clock::Wall if table.plan.in_window => "in the window (from one frame shown to the next)",
             Clock::Wall => "by wall time (to the picture in the host's memory, nothing shown)",
         };
         let title = format!("{name}: frames a second {of}");
@@ -77,6 +81,16 @@ fn of_kernel(table: &FpsTable, kernel: Kernel) -> Vec<String> {
         |kind, count| published.of_spheres(kind, count).map(part),
     ));
     lines
+}
+
+/// What Vulkan's word for a way of showing frames means for their number.
+fn shown_by(mode: &str) -> String {
+    let meaning = match mode {
+        "mailbox" => "no frame waits for the display, which skips the late ones",
+        "immediate" => "no frame waits for the display",
+        _ => "THE WINDOW SYSTEM OFFERS NOTHING BUT WAITING FOR THE DISPLAY, whose rate limits these figures",
+    };
+    format!("every frame is shown, present mode {mode} ({meaning})")
 }
 
 /// How many frames the second draws while the first draws one.
@@ -229,6 +243,23 @@ mod tests {
             assert!(text.contains(part), "{part:?} is not in:\n{text}");
         }
         assert!(!text.contains("not complete") && !text.contains("validation") && !text.contains("whitted"), "{text}");
+    }
+
+    #[test]
+    fn a_table_measured_in_a_window_says_so_and_is_judged_by_the_frames_shown() {
+        let mut table = example(&[10, 100], &[Kernel::Course]);
+        (table.plan.in_window, table.machine.present_mode) = (true, Some("mailbox".to_owned()));
+        let text = of(&table);
+        assert!(
+            text.contains("- in a window of the picture's size: every frame is shown, present mode mailbox"),
+            "{text}"
+        );
+        let title = "## Course: frames a second in the window";
+        assert!(text.contains(title) && !text.contains("nothing shown"), "{text}");
+        // 10.05 ms from one to the next, beside the published figure.
+        assert!(text.contains("| 99.50 [99.50, 99.50] |     57.14 |"), "{text}");
+        table.machine.present_mode = Some("fifo".to_owned());
+        assert!(of(&table).contains("present mode fifo (THE WINDOW SYSTEM OFFERS NOTHING BUT WAITING"));
     }
 
     #[test]

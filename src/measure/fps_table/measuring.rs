@@ -5,14 +5,77 @@ use std::time::{Duration, Instant};
 use super::{Cell, Kernel, Plan};
 use crate::frame::Frame;
 use crate::gpu::Device;
-use crate::scene::{SolidKind, gallery};
+use crate::scene::{Scene, SolidKind, gallery};
 use crate::tracer::{Settings, Tracer, TracerError};
 
-/// A kernel at work on one cell.
+/// Where the frames of a table are drawn.
+pub trait Stage {
+    /// From now on this scene is drawn, as the plan has it.
+    fn take_up(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError>;
+
+    /// A frame by one of the plan's kernels. `keep_going` can stop the work.
+    fn draw(
+        &mut self,
+        kernel: Kernel,
+        keep_going: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<FrameTime, TracerError>;
+}
+
+/// What a frame took.
+#[derive(Debug, Clone, Copy)]
+pub struct FrameTime {
+    /// Of the tracing alone; `None` where the device has no timestamps.
+    pub gpu_time_ns: Option<u64>,
+    pub wall_time: Duration,
+}
+
+/// Frames that go to the host's memory, and nothing is shown.
+pub struct OffScreen {
+    device: Arc<Device>,
+    tracers: Vec<(Kernel, Tracer, Frame)>,
+}
+
+impl OffScreen {
+    pub fn new(device: &Arc<Device>) -> Self {
+        Self { device: device.clone(), tracers: Vec::new() }
+    }
+}
+
+impl Stage for OffScreen {
+    fn take_up(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError> {
+        let tracer = |&kernel: &Kernel| {
+            let settings = Settings {
+                kernel: kernel.in_tracer(),
+                max_depth: Some(plan.generations),
+                ..Settings::new(plan.width, plan.height)
+            };
+            let tracer = Tracer::new(&self.device, scene, &settings)?;
+            let frame = tracer.frame()?;
+            Ok((kernel, tracer, frame))
+        };
+        // The last scene's pictures make room before.
+        self.tracers.clear();
+        self.tracers = plan.kernels.iter().map(tracer).collect::<Result<_, TracerError>>()?;
+        Ok(())
+    }
+
+    fn draw(
+        &mut self,
+        kernel: Kernel,
+        keep_going: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<FrameTime, TracerError> {
+        let found = self.tracers.iter_mut().find(|(known, ..)| *known == kernel);
+        let (_, tracer, frame) =
+            found.ok_or_else(|| TracerError::Refused(format!("no scene for the {} kernel", kernel.name())))?;
+        let start = Instant::now();
+        let gpu_time_ns = tracer.render(frame, &mut |_| keep_going())?;
+        Ok(FrameTime { gpu_time_ns, wall_time: start.elapsed() })
+    }
+}
+
+/// What a kernel has measured of one cell.
 struct Run {
     kernel: Kernel,
-    tracer: Tracer,
-    frame: Frame,
     gpu_samples_ns: Option<Vec<u64>>,
     wall_samples_ns: Vec<u64>,
     time: Duration,
@@ -25,9 +88,9 @@ struct Run {
 /// `keep_going` is asked after every tile and can stop the work there; then there is no cell.
 ///
 /// # Errors
-/// There is no such grid in the gallery, the device fails, or `keep_going` breaks.
+/// There is no such grid in the gallery, the stage fails, or `keep_going` breaks.
 pub fn measure(
-    device: &Arc<Device>,
+    stage: &mut dyn Stage,
     plan: &Plan,
     kind: SolidKind,
     count: usize,
@@ -36,52 +99,27 @@ pub fn measure(
     let name = format!("grid-{}-{count}", kind.name());
     let scene = gallery::scene(&name)
         .ok_or_else(|| TracerError::Refused(format!("the gallery has no scene '{name}' to measure")))?;
-    let start = |&kernel: &Kernel| {
-        let settings = Settings {
-            kernel: kernel.of_tracer(),
-            max_depth: Some(plan.generations),
-            ..Settings::new(plan.width, plan.height)
-        };
-        Run::new(kernel, Tracer::new(device, &scene, &settings)?)
-    };
-    let mut runs: Vec<Run> = plan.kernels.iter().map(start).collect::<Result<_, _>>()?;
-    for run in &mut runs {
-        run.draw(keep_going)?;
+    stage.take_up(&scene, plan)?;
+    let mut runs: Vec<Run> = plan.kernels.iter().map(|&kernel| Run::new(kernel)).collect();
+    for run in &runs {
+        stage.draw(run.kernel, keep_going)?;
     }
     let share_done = |run: &Run| plan.budget.share_done(run.wall_samples_ns.len(), run.time);
     while let Some(next) = runs.iter_mut().min_by(|a, b| share_done(a).total_cmp(&share_done(b))) {
         if share_done(next) >= 1.0 {
             break;
         }
-        let (gpu_time_ns, wall_time) = next.draw(keep_going)?;
-        next.note(gpu_time_ns, wall_time);
+        next.note(stage.draw(next.kernel, keep_going)?);
     }
     Ok(runs.into_iter().map(|run| run.cell(kind, count)).collect())
 }
 
 impl Run {
-    fn new(kernel: Kernel, tracer: Tracer) -> Result<Self, TracerError> {
-        Ok(Self {
-            kernel,
-            frame: tracer.frame()?,
-            tracer,
-            gpu_samples_ns: Some(Vec::new()),
-            wall_samples_ns: Vec::new(),
-            time: Duration::ZERO,
-        })
+    fn new(kernel: Kernel) -> Self {
+        Self { kernel, gpu_samples_ns: Some(Vec::new()), wall_samples_ns: Vec::new(), time: Duration::ZERO }
     }
 
-    /// The GPU time, where there is one, and the wall time of a frame.
-    fn draw(
-        &mut self,
-        keep_going: &mut dyn FnMut() -> ControlFlow<()>,
-    ) -> Result<(Option<u64>, Duration), TracerError> {
-        let start = Instant::now();
-        let gpu_time_ns = self.tracer.render(&mut self.frame, &mut |_| keep_going())?;
-        Ok((gpu_time_ns, start.elapsed()))
-    }
-
-    fn note(&mut self, gpu_time_ns: Option<u64>, wall_time: Duration) {
+    fn note(&mut self, FrameTime { gpu_time_ns, wall_time }: FrameTime) {
         match (&mut self.gpu_samples_ns, gpu_time_ns) {
             (Some(samples_ns), Some(time_ns)) => samples_ns.push(time_ns),
             (samples_ns, _) => *samples_ns = None,

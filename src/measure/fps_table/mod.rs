@@ -18,7 +18,7 @@ use serde::{Deserialize, Serialize};
 pub use agreement::{Agreement, Bend, Ratio};
 pub use figures::{Figures, figures};
 pub use file::{FpsTableError, ReportFormat};
-pub use measuring::measure;
+pub use measuring::{FrameTime, OffScreen, Stage, measure};
 pub use published::{CLAIMED_OF_SPHERES, CLAIMED_ORDER, published};
 pub use speeds::Speeds;
 
@@ -48,7 +48,8 @@ impl Kernel {
         }
     }
 
-    fn of_tracer(self) -> tracer::Kernel {
+    /// As the tracer calls it.
+    pub fn in_tracer(self) -> tracer::Kernel {
         match self {
             Self::Course => tracer::Kernel::Course,
             Self::Whitted => tracer::Kernel::Whitted(Precision::F32),
@@ -65,15 +66,17 @@ pub struct Machine {
     /// This program, its version and, where it was built in a clone, the commit that it was built on: edits since are
     /// not told.
     pub program: String,
+    /// How frames were shown in a window, by Vulkan's word, such as `mailbox`; `None` where none was.
+    pub present_mode: Option<String>,
 }
 
 impl Machine {
-    /// This program on a device.
+    /// This program on a device, nothing shown.
     pub fn of(device: &DeviceDescription) -> Self {
         let version = concat!("zerkalo ", env!("CARGO_PKG_VERSION"));
         let program = option_env!("ZERKALO_COMMIT")
             .map_or(version.to_owned(), |commit| format!("{version} (on commit {commit})"));
-        Self { device: device.name.clone(), driver: device.driver.clone(), program }
+        Self { device: device.name.clone(), driver: device.driver.clone(), program, present_mode: None }
     }
 }
 
@@ -91,6 +94,8 @@ pub struct Plan {
     pub budget: Budget,
     /// Whether the validation layers watch, which takes its time.
     pub validation: bool,
+    /// Whether every frame is shown in a window, as in the course work.
+    pub in_window: bool,
 }
 
 impl Plan {
@@ -104,6 +109,7 @@ impl Plan {
             counts: Self::course_counts(),
             budget: Budget::QUICK,
             validation: false,
+            in_window: false,
         }
     }
 
@@ -119,7 +125,7 @@ impl Plan {
 
     /// Refuses, in a sentence, what cannot be measured.
     pub fn check(&self) -> Result<(), String> {
-        let Self { width, height, generations, kernels, counts, budget, validation: _ } = self;
+        let Self { width, height, generations, kernels, counts, budget, validation: _, in_window: _ } = self;
         Frame::check_size(*width, *height).map_err(|error| error.to_string())?;
         if !(1..=DEPTH_LIMIT).contains(generations) {
             return Err(format!("{generations} generations are impossible: 1 to {DEPTH_LIMIT}"));
@@ -177,7 +183,8 @@ impl Budget {
 pub enum Clock {
     /// Of the tracing alone, by the device's timestamps.
     Gpu,
-    /// From the call to the picture in the host's memory: submission, tracing and the copy.
+    /// From the call to the picture in the host's memory: submission, tracing and the copy. In a window, from one frame
+    /// given to the window system to the next.
     Wall,
 }
 
@@ -241,9 +248,10 @@ impl FpsTable {
         self.cells.iter().find(|cell| (cell.kind, cell.count, cell.kernel) == (kind, count, kernel))
     }
 
-    /// By GPU time where the device has it.
+    /// By GPU time where the device has it; in a window by the frames that it took, as in the course work.
     pub fn clock(&self) -> Clock {
-        if self.cells.iter().all(|cell| cell.gpu_samples_ns.is_some()) { Clock::Gpu } else { Clock::Wall }
+        let has_gpu_times = self.cells.iter().all(|cell| cell.gpu_samples_ns.is_some());
+        if has_gpu_times && !self.plan.in_window { Clock::Gpu } else { Clock::Wall }
     }
 
     /// Of the median frames of a kernel.
@@ -286,8 +294,12 @@ mod tests {
 
     /// A table whose cell of `count` solids takes `count` ms a frame with spheres and one more for every kind after.
     pub(super) fn example(counts: &[usize], kernels: &[Kernel]) -> FpsTable {
-        let machine =
-            Machine { device: "a device, of \"two\" cores".into(), driver: "driver 1".into(), program: "z 1".into() };
+        let machine = Machine {
+            device: "a device, of \"two\" cores".into(),
+            driver: "driver 1".into(),
+            program: "z 1".into(),
+            present_mode: None,
+        };
         let plan = Plan {
             width: 160,
             height: 70,
@@ -296,6 +308,7 @@ mod tests {
             counts: counts.to_vec(),
             budget: Budget::QUICK,
             validation: false,
+            in_window: false,
         };
         let mut table = FpsTable::new(machine, plan);
         for (kind, count) in table.missing() {
@@ -348,6 +361,9 @@ mod tests {
         assert_eq!(table.speeds(Kernel::Whitted, Clock::Gpu).get(SolidKind::Sphere, 10), Some(200.0));
         let wall = table.speeds(Kernel::Course, Clock::Wall).get(SolidKind::Sphere, 10);
         assert_eq!(wall, Some(1e9 / 10_050_000.0));
+        table.plan.in_window = true;
+        assert_eq!(table.clock(), Clock::Wall);
+        table.plan.in_window = false;
         table.cells[3].gpu_samples_ns = None;
         assert_eq!(table.clock(), Clock::Wall);
     }

@@ -42,8 +42,13 @@ struct Subject<'a> {
 /// many spheres, which shows the kinds' order where all are slow.
 pub(super) fn rows(table: &FpsTable) -> [Row; 2] {
     let clock = table.clock();
+    let by = match clock {
+        Clock::Gpu => "GPU time",
+        Clock::Wall if table.plan.in_window => "in the window",
+        Clock::Wall => "wall time",
+    };
     let measured = |&kernel: &Kernel| Subject {
-        name: format!("{} kernel, {}", kernel.name(), if clock == Clock::Gpu { "GPU time" } else { "wall time" }),
+        name: format!("{} kernel, {by}", kernel.name()),
         speeds: table.speeds(kernel, clock),
         quartiles: Box::new(move |kind, count| {
             let quartiles = |cell: &Cell| Some(cell.summary(clock)?.quartiles_ns.map(frames_per_second));
