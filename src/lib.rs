@@ -2,7 +2,8 @@
 //!
 //! The modules stand in the order the data takes: a [`scene`] is read or edited, a [`plan`] tells what it requires, a
 //! [`tracer`] draws it on a device that [`gpu`] opened, or the [`reference`](mod@reference) on the CPU, the picture is a
-//! [`frame`], which is saved and [measured](measure); each [`command`] goes that way or a part of it.
+//! [`frame`], which is saved and [measured](measure); [`validation`] has all of it drawn under Vulkan's validation layers;
+//! each [`command`] goes that way or a part of it.
 
 pub mod scene;
 
@@ -17,6 +18,8 @@ pub mod tracer;
 pub mod frame;
 
 pub mod measure;
+
+pub mod validation;
 
 pub mod viewer;
 

@@ -9,6 +9,7 @@ pub mod interrupt;
 pub mod plan;
 pub mod render;
 pub mod stability;
+pub mod validate;
 pub mod view;
 
 use std::io::{self, Write};
@@ -34,6 +35,7 @@ pub enum Command {
     Compare(compare::CompareArgs),
     Stability(stability::StabilityArgs),
     Fps(fps::FpsArgs),
+    Validate(validate::ValidateArgs),
     Devices(devices::DevicesArgs),
     Gallery(gallery::GalleryArgs),
     Convert(convert::ConvertArgs),
@@ -48,6 +50,7 @@ impl Command {
             Self::Compare(args) => Ok(compare::run(args)?),
             Self::Stability(args) => stability::run(args),
             Self::Fps(args) => fps::run(args),
+            Self::Validate(args) => validate::run(args),
             Self::Devices(args) => devices::run(args),
             Self::Gallery(args) => gallery::run(args),
             Self::Convert(args) => convert::run(args),

@@ -2,6 +2,7 @@ use std::ffi::{CStr, c_char};
 use std::sync::Arc;
 
 use ash::{ext, vk};
+use serde::Serialize;
 
 use super::error::GpuError;
 use super::messages::Messages;
@@ -18,6 +19,36 @@ pub enum Validation {
     GpuAssisted,
     /// Core, synchronization and best-practices checks.
     BestPractices,
+}
+
+impl Validation {
+    /// What is watched besides core and synchronization.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Off => "off",
+            Self::Core => "core",
+            Self::GpuAssisted => "GPU-assisted",
+            Self::BestPractices => "best practices",
+        }
+    }
+}
+
+/// The validation layer as it is installed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Layer {
+    pub name: String,
+    /// Of the Vulkan specification that it checks against.
+    pub version: String,
+    /// Its own number.
+    pub implementation: u32,
+}
+
+/// # Errors
+/// No loader, or no such layer.
+pub fn validation_layer() -> Result<Layer, GpuError> {
+    // SAFETY: the loader library's initialisers are trusted like any system library's.
+    let entry = unsafe { ash::Entry::load() }.map_err(GpuError::NoLoader)?;
+    find_validation_layer(&entry)
 }
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
@@ -112,13 +143,21 @@ fn offers_extension(entry: &ash::Entry, layer: Option<&CStr>, wanted: &CStr) -> 
     Ok(extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(wanted)))
 }
 
-fn check_validation(entry: &ash::Entry, has_debug_utils: bool) -> Result<(), GpuError> {
+fn find_validation_layer(entry: &ash::Entry) -> Result<Layer, GpuError> {
     // SAFETY: the entry is loaded.
     let layers = unsafe { entry.enumerate_instance_layer_properties() }
         .map_err(GpuError::call(|| "list the instance layers"))?;
-    if !layers.iter().any(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER)) {
-        return Err(GpuError::NoValidationLayer);
-    }
+    let layer = layers.iter().find(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER));
+    let layer = layer.ok_or(GpuError::NoValidationLayer)?;
+    Ok(Layer {
+        name: VALIDATION_LAYER.to_string_lossy().into_owned(),
+        version: version_text(layer.spec_version),
+        implementation: layer.implementation_version,
+    })
+}
+
+fn check_validation(entry: &ash::Entry, has_debug_utils: bool) -> Result<(), GpuError> {
+    find_validation_layer(entry)?;
     if !has_debug_utils {
         return Err(GpuError::NoValidationExtension("VK_EXT_debug_utils"));
     }

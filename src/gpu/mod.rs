@@ -3,6 +3,7 @@
 //! Every Vulkan object is made in one place, freed by its owner's `Drop`, and has a debug name.
 
 mod arithmetic;
+mod checks;
 mod commands;
 mod device;
 mod error;
@@ -26,15 +27,16 @@ mod widget_memory;
 use std::sync::Arc;
 
 pub use arithmetic::{Arithmetic, FloatWidth, arithmetic};
+pub use checks::{Check, try_checks};
 pub use commands::Commands;
 pub(crate) use commands::Semaphores;
 pub use device::Device;
 pub use error::GpuError;
 pub use hazards::Use;
 pub use in_flight::InFlight;
-pub use instance::{Instance, Validation};
+pub use instance::{Instance, Layer, Validation, validation_layer};
 pub use memory::{Buffer, BufferKind, StorageImage, Texel};
-pub use messages::{Message, Messages};
+pub use messages::{Allowance, Message, Messages};
 pub use physical::{DeviceDescription, DeviceKind, choose};
 pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
 pub use recorder::Recorder;
