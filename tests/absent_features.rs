@@ -130,3 +130,18 @@ fn upright_boxes_read_no_axes_and_one_light_has_no_loop() {
     let one_light = reached(&device, &kernel, &without("several lights"), Precision::F32);
     assert_eq!(all.back_edges - one_light.back_edges, 2, "of its ball, and of its light");
 }
+
+#[test]
+fn one_sample_a_pixel_reads_no_picture() {
+    let device = TestDevice::open();
+    let requirements = Requirements { kinds: [true; 4], ..Requirements::default() };
+    for shader in [&shaders::WHITTED_F32, &shaders::WHITTED_F32_OCTETS, &shaders::WHITTED_F64] {
+        let reached = |samples| {
+            let requirements = Requirements { samples, ..requirements };
+            Kernel::of(shader).reached(&requirements.constants(&device, Precision::F32, [8, 8]).unwrap())
+        };
+        let (one, several) = (reached(false), reached(true));
+        assert_eq!((one.image_reads, several.image_reads), (0, 1), "{}", shader.name);
+        assert!(one.instructions < several.instructions, "{}", shader.name);
+    }
+}

@@ -7,6 +7,7 @@ use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::gpu::{InFlight, shaders};
 use zerkalo::scene::{Light, Projection, Scene, Solid, gallery};
+use zerkalo::tracer::sampling::Sampling;
 use zerkalo::tracer::{Canvas, Kernel, Precision, Settings, TracerError};
 
 /// A canvas with what it is traced on.
@@ -261,4 +262,98 @@ fn each_picture_s_time_is_told_once() {
         assert_eq!(easel.pictures, count);
         scene.camera.position.z -= 0.5;
     }
+}
+
+const ACCURATE: Kernel = Kernel::Whitted(Precision::F32);
+
+fn sampled(device: &TestDevice, scene: &Scene, [width, height]: [u32; 2], sampling: Sampling) -> Frame {
+    let Sampling { samples, scale } = sampling;
+    render(device, scene, &Settings { kernel: ACCURATE, samples, scale, ..Settings::new(width, height) })
+}
+
+impl Easel {
+    /// For the accurate kernel.
+    fn sampled(device: &TestDevice, size: [u32; 2], sampling: Sampling) -> Self {
+        let mut easel = Self::new(device, size);
+        easel.canvas.use_kernel(ACCURATE).unwrap();
+        assert!(easel.set(sampling) && !easel.set(sampling), "what is set already is told");
+        easel
+    }
+
+    fn set(&mut self, sampling: Sampling) -> bool {
+        self.canvas.set_sampling(&mut self.in_flight, sampling).unwrap()
+    }
+}
+
+#[test]
+fn samples_are_added_while_nothing_changes_until_all_are_there() {
+    let device = TestDevice::open();
+    let size = [97, 61];
+    let mut scene = scene("showcase");
+    for sampling in [Sampling { samples: 5, scale: 1.0 }, Sampling { samples: 3, scale: 0.5 }] {
+        let mut easel = Easel::sampled(&device, size, sampling);
+        for _ in 0..2 {
+            let (frame, _) = easel.draw(&scene);
+            assert!(frame == sampled(&device, &scene, size, sampling), "{sampling:?}");
+            let uploaded = easel.uploaded(|easel| assert_eq!(easel.draw(&scene).1, 0, "nothing more is traced"));
+            assert_eq!(uploaded, 0);
+            scene.camera.position.x += 0.25;
+        }
+    }
+}
+
+#[test]
+fn a_change_among_the_samples_begins_again_from_the_first() {
+    let device = TestDevice::open();
+    let (size, sampling) = ([97, 61], Sampling { samples: 6, scale: 1.0 });
+    let mut easel = Easel::sampled(&device, size, sampling);
+    let mut scene = scene("showcase");
+    for round in 0..4 {
+        easel.canvas.show(&scene).unwrap();
+        while !easel.canvas.is_whole() {
+            assert!(!easel.canvas.is_finished());
+            easel.step();
+        }
+        // One sample of each pixel is a picture of the scene already.
+        let first = Sampling { samples: 1, ..sampling };
+        assert!(round > 0 || easel.shown() == sampled(&device, &scene, size, first));
+        (0..round).for_each(|_| easel.step());
+        assert!(!easel.canvas.is_finished() && easel.canvas.progress().is_some_and(|share| share < 1.0));
+        scene.camera.position.y += 0.125;
+    }
+    let (frame, _) = easel.draw(&scene);
+    assert!(easel.canvas.is_finished() && frame == sampled(&device, &scene, size, sampling));
+}
+
+#[test]
+fn other_samples_and_another_scale_are_another_picture() {
+    let device = TestDevice::open();
+    let size = [90, 70];
+    let scene = scene("four");
+    let mut easel = Easel::sampled(&device, size, Sampling { samples: 4, scale: 1.0 });
+    for (samples, scale) in [(4, 1.0), (2, 1.0), (2, 0.25), (1, 0.7), (1, 1.0)] {
+        let sampling = Sampling { samples, scale };
+        easel.set(sampling);
+        let uploaded = easel.uploaded(|easel| {
+            let (frame, steps) = easel.draw(&scene);
+            assert!(steps > 0 && frame == sampled(&device, &scene, size, sampling), "{sampling:?}");
+        });
+        assert!(uploaded == 0 || (samples, scale) == (4, 1.0), "the scene is there already");
+        assert_eq!(easel.canvas.size(), size);
+    }
+    easel.set(Sampling { samples: 1, scale: 0.5 });
+    easel.canvas.resize(&mut easel.in_flight, [33, 21]).unwrap();
+    assert!(easel.draw(&scene).0 == sampled(&device, &scene, [33, 21], Sampling { samples: 1, scale: 0.5 }));
+    assert!(easel.canvas.set_sampling(&mut easel.in_flight, Sampling { samples: 65, scale: 1.0 }).is_err());
+
+    // A picture from elsewhere is of the canvas's size, and the course kernel knows no other.
+    let other = Frame::new(33, 21).unwrap();
+    easel.canvas.put(&mut easel.in_flight, &other).unwrap();
+    easel.step();
+    assert!(easel.shown() == other && easel.canvas.is_finished());
+    easel.set(Sampling { samples: 2, scale: 0.5 });
+    easel.canvas.use_kernel(Kernel::Course).unwrap();
+    assert!(matches!(easel.canvas.show(&scene), Err(TracerError::Refused(_))));
+    easel.set(Sampling::PLAIN);
+    assert!(easel.draw(&scene).0 == rendered(&device, &scene, [33, 21]));
 }

@@ -262,6 +262,28 @@ fn every_kernel_draws_in_the_precisions_that_it_has_and_refuses_the_other() {
 }
 
 #[test]
+fn samples_and_scale_are_the_whitted_kernel_s_alone() {
+    let place = Place::new();
+    let draw = |file: &str, arguments: &[&str]| {
+        let report = place.json(&render("four", file, &[SMALL, arguments, &["--json"]].concat()));
+        (Frame::load(&place.path(file)).unwrap(), report)
+    };
+    let (plain, report) = draw("plain.exr", &[]);
+    assert_eq!((&report["samples_per_pixel"], &report["scale"]), (&1.into(), &1.0.into()));
+    let (same, _) = draw("same.exr", &["--samples", "1", "--scale", "1"]);
+    assert!(same == plain);
+    let (other, report) = draw("other.exr", &["--samples", "4", "--scale", "1/2"]);
+    assert_eq!((&report["samples_per_pixel"], &report["scale"]), (&4.into(), &0.5.into()));
+    assert!(other != plain);
+    for kernel in ["course", "plain", "reference"] {
+        for (option, value) in [("--samples", "2"), ("--scale", "0.5")] {
+            let arguments = [SMALL, &["--kernel", kernel, option, value]].concat();
+            place.assert_refused(&render("four", "x.exr", &arguments), 2, &[option, "whitted kernel"]);
+        }
+    }
+}
+
+#[test]
 fn a_refusal_leaves_an_older_picture_as_it_was() {
     let place = Place::new();
     fs::write(place.path("x.png"), "older").unwrap();
@@ -311,7 +333,7 @@ fn the_environment_chooses_the_device_and_the_option_overrules_it() {
 #[test]
 fn wrong_arguments_are_refused_by_name() {
     let place = Place::new();
-    let wrong: [(&[&str], &str); 17] = [
+    let wrong: [(&[&str], &str); 22] = [
         (&["--size", "0x5"], "--size"),
         (&["--size", "16385x1"], "--size"),
         (&["--size", "12"], "--size"),
@@ -322,6 +344,11 @@ fn wrong_arguments_are_refused_by_name() {
         (&["--repeat", "many"], "--repeat"),
         (&["--max-depth", "0"], "--max-depth"),
         (&["--max-depth", "1001"], "--max-depth"),
+        (&["--samples", "0"], "--samples"),
+        (&["--samples", "65"], "--samples"),
+        (&["--samples", "1.5"], "--samples"),
+        (&["--scale", "0.2"], "--scale"),
+        (&["--scale", "3/2"], "--scale"),
         (&["--error", "1/0"], "--error"),
         (&["--error", "less"], "--error"),
         (&["--kernel", "none"], "--kernel"),

@@ -11,7 +11,7 @@ use zerkalo::gpu::{
     StorageImage, Use, Validation, shaders,
 };
 use zerkalo::scene::gallery;
-use zerkalo::tracer::Settings;
+use zerkalo::tracer::{Kernel, Precision, Settings};
 
 /// Small pictures at the scenes' own depth: the checks are per command and per access, not per pixel, and every
 /// scene's records and loops are gone through whole. Two of the tiles' sides end inside a workgroup.
@@ -25,6 +25,20 @@ fn every_gallery_scene_is_drawn_without_a_message() {
         let scene = gallery::scene(&entry.name).unwrap();
         render(&device, &scene, &settings);
         assert_eq!(device.take_messages(), [], "{}", entry.name);
+    }
+}
+
+/// Samples read the picture that the ones before them wrote, and enlarging reads what all of them did.
+#[test]
+fn samples_and_a_smaller_picture_are_drawn_without_a_message() {
+    let device = TestDevice::open_with(Validation::GpuAssisted);
+    let scene = gallery::scene("four").unwrap();
+    for precision in [Precision::F32, Precision::F64] {
+        for (samples, scale) in [(3, 1.0), (1, 0.3), (2, 0.5)] {
+            let kernel = Kernel::Whitted(precision);
+            render(&device, &scene, &Settings { kernel, samples, scale, max_tile_side: 40, ..Settings::new(93, 51) });
+            assert_eq!(device.take_messages(), [], "{precision:?}, {samples} samples, scale {scale}");
+        }
     }
 }
 

@@ -171,13 +171,17 @@ fn a_picture_that_the_device_gives_up_on_is_an_error() {
     let device = TestDevice::open();
     let behind = primitive(sphere(DVec3::NEG_Z * 50.0, 1.0), mirror());
     let scene = Scene { primitives: vec![behind; 700_000], background: DVec3::ONE, lights: vec![], ..Scene::default() };
-    let mut tracer = Tracer::new(&device, &scene, &settings(Precision::F32, 8, 8)).unwrap();
+    let plain = settings(Precision::F32, 8, 8);
+    let mut tracer = Tracer::new(&device, &scene, &plain).unwrap();
     let mut frame = tracer.frame().unwrap();
-    match tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())) {
-        Ok(_) => assert!(frame.pixels().iter().all(|&pixel| pixel == [1.0; 3]), "drawn, but not what is there"),
-        Err(error) => {
-            assert!(matches!(error, TracerError::GaveUp { pixels: 64, .. }) && !error.is_input_error(), "{error}");
-            assert!(!error.to_string().contains('\n'));
+    for (samples, scale) in [(1, 1.0), (2, 0.5)] {
+        tracer.take_up(&scene, &Settings { samples, scale, ..plain.clone() }).unwrap();
+        match tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())) {
+            Ok(_) => assert!(frame.pixels().iter().all(|&pixel| pixel == [1.0; 3]), "drawn, but not what is there"),
+            Err(error) => {
+                assert!(matches!(error, TracerError::GaveUp { pixels: 64, .. }) && !error.is_input_error(), "{error}");
+                assert!(!error.to_string().contains('\n'));
+            }
         }
     }
 }

@@ -10,6 +10,9 @@ struct WhittedFrame {
     uint writes_remainder; // not 0: what the colour loses by rounding to float, instead of the colour
     float least_weight;    // a path ends as soon as it weighs no more than that; below 1
     float least_shadowed;  // of light that is no more than that, times the path's weight, half counts, in shadow or not
+    uvec2 sample_place;    // in the pixel, sub-pixels from its top left
+    uint samples_before;   // of each pixel, that the picture is the mean of
+    float sample_weight;   // of this one in the mean: 1 / (samples_before + 1)
 };
 layout(push_constant, std430) uniform Push { WhittedFrame frame; };
 

@@ -18,6 +18,7 @@ use crate::measure::median;
 use crate::plan::{Plan, Wishes};
 use crate::reference::{self, RenderError};
 use crate::scene::{DEPTH_LIMIT, Scene};
+use crate::tracer::sampling::{MAX_SAMPLES, Sampling};
 use crate::tracer::{self, Settings, Tracer, TracerError};
 
 /// Which of the program's tracers draws.
@@ -68,6 +69,12 @@ pub struct RenderArgs {
     /// Largest change of any linear channel by what the whitted kernel leaves out, such as 0.002 or 1/510; 0 is exact
     #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error)]
     pub error: f64,
+    /// Anti-aliasing by the whitted kernel: a pixel is the mean of so many rays through fixed places in it, 1 to 64
+    #[arg(long, value_name = "N", default_value = "1", value_parser = parse_samples())]
+    pub samples: u32,
+    /// Size of the picture that the whitted kernel traces against that of OUT, to which it is brought bilinearly: 1/4 to 1
+    #[arg(long, value_name = "S", default_value = "1", value_parser = parse_scale)]
+    pub scale: f64,
     #[command(flatten)]
     pub device: DeviceArgs,
     /// Render once to warm up, then N times, and report the median GPU time
@@ -102,6 +109,22 @@ pub(super) fn parse_depth() -> RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT))
 }
 
+fn parse_samples() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES))
+}
+
+/// Such as 0.5 or 1/2.
+fn parse_scale(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let scale = match text.split_once('/') {
+        Some((above, below)) => number(above).zip(number(below)).map(|(above, below)| above / below),
+        None => number(text),
+    };
+    let scale = scale.ok_or("it must be a number or a fraction, such as 0.5 or 1/2")?;
+    Sampling { scale, ..Sampling::PLAIN }.check().map_err(|error| error.to_string())?;
+    Ok(scale)
+}
+
 pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
     let sides = text.split_once(['x', 'X', '×']);
     let size = sides.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
@@ -120,6 +143,9 @@ struct Report<'a> {
     precision: Precision,
     /// No linear channel is changed more by what was left out.
     error_bound: f64,
+    samples_per_pixel: u32,
+    /// Size of the traced picture against this one.
+    scale: f64,
     device: &'a str,
     driver: &'a str,
     /// Median of `samples_ns`; null where there is none: no timestamps, or no Vulkan device.
@@ -149,6 +175,11 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         return Err(
             TracerError::Refused("only the whitted kernel leaves anything out: --error is for it".to_owned()).into()
         );
+    }
+    for (option, is_given) in [("--samples", args.samples > 1), ("--scale", args.scale < 1.0)] {
+        if is_given && args.kernel != Kernel::Whitted {
+            return Err(TracerError::Refused(format!("{option} is for the whitted kernel only")).into());
+        }
     }
     let rendered = match args.kernel {
         Kernel::Course | Kernel::Plain | Kernel::Whitted => on_device(args, &scene)?,
@@ -239,7 +270,8 @@ fn settings(args: &RenderArgs, scene: &Scene, device: &DeviceDescription) -> Res
             let precision = args.precision.map(Precision::in_library);
             let wishes = Wishes { precision, max_depth: args.max_depth, error: args.error, width, height };
             let plan = Plan::for_scene(scene, &wishes, &limits_of(device))?;
-            (Settings::planned(&plan, width, height), plan.bounds.total())
+            let &RenderArgs { samples, scale, .. } = args;
+            (Settings { samples, scale, ..Settings::planned(&plan, width, height) }, plan.bounds.total())
         }
     })
 }
@@ -285,6 +317,8 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
             kernel: args.kernel,
             precision: *precision,
             error_bound: *error_bound,
+            samples_per_pixel: args.samples,
+            scale: args.scale,
             device,
             driver,
             gpu_time_ns,
@@ -300,12 +334,25 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
     };
     let output = args.output.display().to_string();
     let bound = if *error_bound > 0.0 { format!(", at most {error_bound:.3e} off") } else { String::new() };
-    super::print_line(&format!("wrote {} ({width}x{height}, {device}, {time}{of}{bound})", output.escape_debug()))
+    let samples = if args.samples > 1 { format!(", {} samples a pixel", args.samples) } else { String::new() };
+    let scale = if args.scale < 1.0 { format!(", traced at {:.4} of that", args.scale) } else { String::new() };
+    let picture = format!("{width}x{height}{scale}{samples}");
+    super::print_line(&format!("wrote {} ({picture}, {device}, {time}{of}{bound})", output.escape_debug()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn scales_are_decimals_and_fractions_within_the_limits() {
+        for (text, scale) in [("1", 1.0), ("0.25", 0.25), ("1/2", 0.5), (" 3 / 4 ", 0.75)] {
+            assert_eq!(parse_scale(text), Ok(scale), "{text}");
+        }
+        for bad in ["", "0", "-1", "1/5", "2", "1/0", "nan", "x", "1/2/3", "0.2499", "inf"] {
+            assert!(parse_scale(bad).is_err(), "{bad}");
+        }
+    }
 
     #[test]
     fn sizes_are_two_sides_within_the_limits() {

@@ -18,6 +18,8 @@ pub struct Commands {
     name: String,
     /// What the submission in flight uses; `None` where none is.
     in_flight: Option<Vec<Arc<dyn Any>>>,
+    /// Of the last [`Commands::run`] and those that went on from it.
+    hazards: Hazards,
     device: Arc<Device>,
 }
 
@@ -39,6 +41,7 @@ impl Commands {
             fence: vk::Fence::null(),
             name: name.to_owned(),
             in_flight: None,
+            hazards: Hazards::default(),
             device: device.clone(),
         };
         let info = vk::CommandPoolCreateInfo::default()
@@ -58,10 +61,18 @@ impl Commands {
         Ok(commands)
     }
 
-    /// Records, submits, and waits until the device is done.
+    /// Records, submits, and waits until the device is done. Images lose what they held.
     pub fn run(&mut self, record: impl FnOnce(&mut Recorder) -> Result<(), GpuError>) -> Result<(), GpuError> {
         // The host waits for each such submission, so nothing is owed between two of them.
-        self.submit(&mut Hazards::default(), Semaphores::default(), record)?;
+        self.hazards = Hazards::default();
+        self.go_on(record)
+    }
+
+    /// As [`Commands::run`], but images keep what the last run left in them.
+    pub fn go_on(&mut self, record: impl FnOnce(&mut Recorder) -> Result<(), GpuError>) -> Result<(), GpuError> {
+        let mut hazards = std::mem::take(&mut self.hazards);
+        self.submit(&mut hazards, Semaphores::default(), record)?;
+        self.hazards = hazards;
         self.wait()
     }
 

@@ -160,7 +160,7 @@ impl Drop for Buffer {
     }
 }
 
-/// A two-dimensional `rgba32f` image that kernels write.
+/// A two-dimensional `rgba32f` image that kernels write and read.
 pub struct StorageImage {
     pub(super) raw: vk::Image,
     pub(super) view: vk::ImageView,

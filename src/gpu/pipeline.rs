@@ -22,8 +22,10 @@ pub enum BindingKind {
     Records,
     /// A buffer that is read texel by texel.
     Texels(Texel),
-    /// A storage image that is only written.
+    /// A storage image that is written, or read and written.
     Picture,
+    /// A storage image that is only read.
+    PictureRead,
 }
 
 impl BindingKind {
@@ -32,13 +34,13 @@ impl BindingKind {
             Self::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
             Self::Storage | Self::Records => vk::DescriptorType::STORAGE_BUFFER,
             Self::Texels(_) => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
-            Self::Picture => vk::DescriptorType::STORAGE_IMAGE,
+            Self::Picture | Self::PictureRead => vk::DescriptorType::STORAGE_IMAGE,
         }
     }
 
     fn use_(self) -> Use {
         match self {
-            Self::Uniform | Self::Records | Self::Texels(_) => Use::ShaderRead,
+            Self::Uniform | Self::Records | Self::Texels(_) | Self::PictureRead => Use::ShaderRead,
             Self::Storage | Self::Picture => Use::ShaderWrite,
         }
     }
@@ -207,9 +209,9 @@ impl Resource {
                 BindingKind::Storage => buffer.kind == BufferKind::Storage,
                 BindingKind::Records => buffer.kind == BufferKind::Records,
                 BindingKind::Texels(texel) => buffer.kind == BufferKind::Texels(texel),
-                BindingKind::Picture => false,
+                BindingKind::Picture | BindingKind::PictureRead => false,
             },
-            Self::Image(_) => binding == BindingKind::Picture,
+            Self::Image(_) => matches!(binding, BindingKind::Picture | BindingKind::PictureRead),
         }
     }
 

@@ -1,16 +1,18 @@
 //! A picture that is traced while others look at it: a chunk with each submission, anew when its scene changes.
 
+mod host;
+mod images;
+
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::chunks::{Pace, Sweep};
 use super::live_kernel::{LiveKernel, State};
+use super::sampling::Sampling;
 use super::{Kernel, TracerError};
-use crate::frame::Frame;
-use crate::gpu::{
-    BindingSet, Buffer, BufferKind, Device, GpuError, InFlight, Recorder, Resource, Shader, StorageImage, Timer, Use,
-};
+use crate::gpu::{Device, GpuError, InFlight, Recorder, Resource, Shader, Timer, Use};
 use crate::scene::Scene;
+use images::{Enlarging, Image, images};
 
 /// Pictures that take longer are seen while they come into being; shorter ones only whole, lest a moving one fall apart.
 const LONG: Duration = Duration::from_millis(500);
@@ -20,6 +22,9 @@ const LONG: Duration = Duration::from_millis(500);
 /// A picture is of one state of the scene: what changes meanwhile is for the next. Two images take turns, one shown
 /// and one traced; only where a picture takes longer than half a second is the shown one traced in place, and
 /// taken up anew at every change.
+///
+/// Where pixels have several samples, a picture has one of each at first; the others are added to it one after another
+/// while nothing changes.
 pub struct Canvas {
     kernel: LiveKernel,
     /// Which that is.
@@ -27,17 +32,22 @@ pub struct Canvas {
     course_shader: Shader,
     images: [Image; 2],
     shown: usize,
+    /// Where the images are smaller than the picture.
+    enlarging: Option<Enlarging>,
     size: [u32; 2],
+    sampling: Sampling,
     /// What the picture being traced, or else the last one, is of.
     current: Option<State>,
     /// What the next is of.
     next: Option<State>,
+    /// Index of the sample being traced, or else of the last one.
+    sample: u32,
     sweep: Sweep,
     is_in_place: bool,
     pace: Pace,
     /// What each place of the ring has in flight, if anything.
     places: [Place; InFlight::COUNT],
-    /// Pictures begun so far.
+    /// Pictures begun so far; every sample of each pixel counts as one.
     begun: u64,
     begun_at: Instant,
     /// The first whose time is of interest: those before were of another size or by another kernel.
@@ -51,13 +61,6 @@ pub struct Canvas {
     /// Resources that are used no more.
     dropped: Vec<Resource>,
     device: Arc<Device>,
-}
-
-struct Image {
-    resource: Resource,
-    /// Once the kernel can be bound.
-    set: Option<Arc<BindingSet>>,
-    is_cleared: bool,
 }
 
 #[derive(Default)]
@@ -88,9 +91,12 @@ impl Canvas {
             kind: Kernel::Course,
             course_shader: shader.clone(),
             shown: 0,
+            enlarging: None,
             size,
+            sampling: Sampling::PLAIN,
             current: None,
             next: None,
+            sample: 0,
             is_in_place: true,
             pace: Pace::new(),
             places: [timer()?, timer()?],
@@ -111,9 +117,9 @@ impl Canvas {
         self.size
     }
 
-    /// The picture to look at.
+    /// The picture to look at, once it is [enlarged](Canvas::enlarge).
     pub fn picture(&self) -> &Resource {
-        &self.images[self.shown].resource
+        self.enlarging.as_ref().map_or(&self.images[self.shown].resource, |enlarging| &enlarging.picture)
     }
 
     /// A kernel from the next chunk on; where it is another one, which is told, the picture is to be
@@ -155,12 +161,42 @@ impl Canvas {
         if size == self.size {
             return Ok(());
         }
-        let images = images(&self.device, size)?;
+        self.remake(in_flight, size, self.sampling)
+    }
+
+    /// Other samples a pixel or another scale; where they are others, which is told, the picture is to be
+    /// [asked for](Canvas::show) again.
+    ///
+    /// # Errors
+    /// They are not within the limits.
+    pub fn set_sampling(&mut self, in_flight: &mut InFlight, sampling: Sampling) -> Result<bool, TracerError> {
+        sampling.check()?;
+        if sampling == self.sampling {
+            return Ok(false);
+        }
+        if sampling.scale == self.sampling.scale {
+            self.sampling = sampling;
+        } else {
+            self.remake(in_flight, self.size, sampling)?;
+        }
+        Ok(true)
+    }
+
+    /// The images anew.
+    fn remake(&mut self, in_flight: &mut InFlight, size: [u32; 2], sampling: Sampling) -> Result<(), TracerError> {
+        let traced_size = sampling.traced_size(size);
+        let images = images(&self.device, traced_size)?;
+        let enlarging = match sampling.scale < 1.0 {
+            true => Some(Enlarging::new(&self.device, size, traced_size, &images)?),
+            false => None,
+        };
         for old in std::mem::replace(&mut self.images, images) {
             in_flight.forget(&old.resource);
         }
-        self.size = size;
-        self.sweep = Sweep::new(LiveKernel::groups(size));
+        if let Some(old) = std::mem::replace(&mut self.enlarging, enlarging) {
+            in_flight.forget(&old.picture);
+        }
+        (self.size, self.sampling) = (size, sampling);
         self.forget_scene();
         Ok(())
     }
@@ -169,7 +205,7 @@ impl Canvas {
         (self.current, self.next) = (None, None);
         self.is_in_place = true;
         self.last_took = None;
-        self.sweep = Sweep::new(LiveKernel::groups(self.size));
+        self.sweep = Sweep::new(LiveKernel::groups(self.sampling.traced_size(self.size)));
         self.first_of_interest = self.begun + 1;
     }
 
@@ -178,7 +214,7 @@ impl Canvas {
     /// # Errors
     /// The kernel cannot take the scene; the picture stays as it is.
     pub fn show(&mut self, scene: &Scene) -> Result<(), TracerError> {
-        let wanted = self.kernel.prepare(scene, self.size)?;
+        let wanted = self.kernel.prepare(scene, self.sampling, self.size)?;
         let latest = self.next.as_ref().or(self.current.as_ref());
         if latest != Some(&wanted) {
             self.next = Some(wanted);
@@ -189,19 +225,29 @@ impl Canvas {
     /// Asks for the same picture once more.
     pub fn trace_again(&mut self, scene: &Scene) -> Result<(), TracerError> {
         if self.is_whole() {
-            self.next = Some(self.kernel.prepare(scene, self.size)?);
+            self.next = Some(self.kernel.prepare(scene, self.sampling, self.size)?);
         }
         Ok(())
     }
 
     /// Whether submissions are still needed for the picture asked for, or for the time that it took.
     pub fn is_tracing(&self) -> bool {
-        self.next.is_some() || self.sweep.left() > 0 || self.places.iter().any(|place| place.chunk.is_some())
+        !self.is_finished() || self.places.iter().any(|place| place.chunk.is_some())
     }
 
-    /// Whether all of the picture shown is of the scene asked for last.
+    /// Whether all of the picture shown is of the scene asked for last, by one sample a pixel at least.
     pub fn is_whole(&self) -> bool {
-        self.next.is_none() && self.sweep.left() == 0
+        self.next.is_none() && (self.sweep.left() == 0 || self.sample > 0)
+    }
+
+    /// Whether it is [whole](Canvas::is_whole) and has all samples.
+    pub fn is_finished(&self) -> bool {
+        self.next.is_none() && self.sweep.left() == 0 && !self.lacks_samples()
+    }
+
+    /// Whether samples are to come of the picture shown, after the one being traced.
+    fn lacks_samples(&self) -> bool {
+        self.current.as_ref().is_some_and(|current| self.sample + 1 < current.samples())
     }
 
     /// Whether the picture is seen while it comes into being: looking at it again shows more of it.
@@ -209,10 +255,12 @@ impl Canvas {
         self.is_in_place && self.sweep.left() > 0
     }
 
-    /// Share of the picture that is traced, while one is.
+    /// Share of the picture that is traced, of all samples, while one is.
     pub fn progress(&self) -> Option<f32> {
-        let total = self.sweep.total();
-        (self.sweep.left() > 0).then(|| (total - self.sweep.left()) as f32 / total as f32)
+        let samples = u64::from(self.current.as_ref().map_or(1, State::samples));
+        let done = (u64::from(self.sample) + 1) * self.sweep.total() - self.sweep.left();
+        let is_under_way = self.sweep.left() > 0 || self.lacks_samples();
+        is_under_way.then(|| done as f32 / (samples * self.sweep.total()) as f32)
     }
 
     /// GPU times of the pictures that came to their end since the last call, nanoseconds; nothing where the device has
@@ -256,7 +304,9 @@ impl Canvas {
     /// [collected](Canvas::collect).
     pub fn record(&mut self, recorder: &mut Recorder, place: usize) -> Result<(), GpuError> {
         self.clear(recorder);
-        if self.sweep.left() == 0 || self.is_in_place {
+        if self.next.is_none() && self.sweep.left() == 0 && self.lacks_samples() {
+            self.begin_sample();
+        } else if self.sweep.left() == 0 || self.is_in_place {
             self.begin(recorder)?;
         }
         let groups = self.pace.groups().min(self.sweep.left());
@@ -267,25 +317,39 @@ impl Canvas {
             self.is_in_place = true;
         }
         let target = if self.is_in_place { self.shown } else { 1 - self.shown };
-        let image = &self.images[target];
-        let Some(set) = &image.set else { return Ok(()) };
+        let Some(set) = self.images[target].set.clone() else { return Ok(()) };
         let parts = self.sweep.take(groups);
-        let timer = &self.places[place].timer;
+        let is_last = self.sweep.left() == 0;
+        let timer = self.places[place].timer.clone();
         recorder.labelled("trace", |recorder| {
             timer.iter().for_each(|timer| recorder.start(timer));
             // After the timer's start: with a framebuffer around, lavapipe takes a time only at the next barrier.
-            recorder.make_ready(&image.resource, Use::ShaderWrite);
-            self.kernel.record(recorder, set, scene, &parts);
+            recorder.make_ready(&self.images[target].resource, Use::ShaderWrite);
+            self.kernel.record(recorder, &set, scene, self.sample, &parts);
+            if is_last {
+                self.shown = target;
+            }
+            if let Some(enlarging) = self.enlarging.as_mut().filter(|_| target == self.shown) {
+                enlarging.is_current = false;
+                if is_last {
+                    // What it takes is part of the picture's time.
+                    enlarging.bring_up_to_date(recorder, &self.images, self.shown);
+                }
+            }
             timer.iter().for_each(|timer| recorder.stop(timer));
             Ok(())
         })?;
-        let is_last = self.sweep.left() == 0;
         self.places[place].chunk =
             Some(Chunk { picture: self.begun, groups, is_last, begun_at: self.begun_at, submitted: Instant::now() });
-        if is_last {
-            self.shown = target;
-        }
         Ok(())
+    }
+
+    /// Brings the picture shown up to date where it is traced at a smaller size. To be recorded before it is looked at,
+    /// after the [chunk](Canvas::record).
+    pub fn enlarge(&mut self, recorder: &mut Recorder) {
+        if let Some(enlarging) = &mut self.enlarging {
+            enlarging.bring_up_to_date(recorder, &self.images, self.shown);
+        }
     }
 
     /// Takes up the scene asked for.
@@ -300,6 +364,7 @@ impl Canvas {
             }
         }
         self.current = Some(scene);
+        self.sample = 0;
         self.begun += 1;
         self.begun_at = Instant::now();
         if self.sweep.left() > 0 {
@@ -311,6 +376,15 @@ impl Canvas {
         Ok(())
     }
 
+    /// Takes up the next sample of each pixel, which goes into the picture shown: that is one of the scene all the while.
+    fn begin_sample(&mut self) {
+        self.sample += 1;
+        self.begun += 1;
+        self.begun_at = Instant::now();
+        self.sweep.start();
+        self.is_in_place = true;
+    }
+
     fn clear(&mut self, recorder: &mut Recorder) {
         let color = self.next.as_ref().or(self.current.as_ref()).map_or([0.0; 3], State::background);
         for image in self.images.iter_mut().filter(|image| !image.is_cleared) {
@@ -319,56 +393,4 @@ impl Canvas {
             image.is_cleared = true;
         }
     }
-
-    /// The picture shown, as it is now.
-    pub fn read_back(&mut self, in_flight: &mut InFlight) -> Result<Frame, TracerError> {
-        self.collect_all(in_flight)?;
-        let [width, height] = self.size;
-        let mut frame = Frame::new(width, height)?;
-        let bytes = frame.pixels().len() as u64 * StorageImage::PIXEL_BYTES;
-        let buffer = Arc::new(Buffer::new(&self.device, "picture read back", BufferKind::Readback, bytes)?);
-        let resource = Resource::from(&buffer);
-        in_flight.run(|recorder| {
-            recorder.make_ready(self.picture(), Use::CopySource);
-            recorder.make_ready(&resource, Use::CopyTarget);
-            recorder.copy_to_buffer(self.picture(), &resource, width, height);
-            recorder.make_ready(&resource, Use::HostRead);
-            Ok(())
-        })?;
-        in_flight.forget(&resource);
-        let pixels: &[[f32; 4]] = bytemuck::cast_slice(buffer.bytes()?);
-        for (target, &[r, g, b, _]) in frame.pixels_mut().iter_mut().zip(pixels) {
-            *target = [r, g, b];
-        }
-        Ok(frame)
-    }
-
-    /// Shows a picture traced elsewhere, of the canvas's size.
-    pub fn put(&mut self, in_flight: &mut InFlight, frame: &Frame) -> Result<(), TracerError> {
-        assert_eq!([frame.width(), frame.height()], self.size, "the picture is of another size");
-        self.collect_all(in_flight)?;
-        self.forget_scene();
-        let pixels: Vec<[f32; 4]> = frame.pixels().iter().map(|&[r, g, b]| [r, g, b, 1.0]).collect();
-        let bytes: &[u8] = bytemuck::cast_slice(&pixels);
-        let mut buffer = Buffer::new(&self.device, "picture to show", BufferKind::Upload, bytes.len() as u64)?;
-        buffer.write(bytes)?;
-        let resource = Resource::from(&Arc::new(buffer));
-        let image = &mut self.images[self.shown];
-        image.is_cleared = true;
-        in_flight.run(|recorder| {
-            recorder.make_ready(&image.resource, Use::CopyTarget);
-            recorder.copy_to_image(&resource, &image.resource, frame.width(), frame.height());
-            Ok(())
-        })?;
-        in_flight.forget(&resource);
-        Ok(())
-    }
-}
-
-fn images(device: &Arc<Device>, [width, height]: [u32; 2]) -> Result<[Image; 2], GpuError> {
-    let image = |name| {
-        let resource = Resource::from(&Arc::new(StorageImage::new(device, name, width, height)?));
-        Ok(Image { set: None, resource, is_cleared: false })
-    };
-    Ok([image("picture 0")?, image("picture 1")?])
 }

@@ -6,6 +6,7 @@ use super::chunks::Part;
 use super::course::{CourseKernel, CourseScene, WORKGROUP};
 use super::live_whitted::{LiveWhitted, WhittedState};
 use super::records::PrimitiveRecords;
+use super::sampling::Sampling;
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Shader};
 use crate::plan::Precision;
@@ -55,10 +56,13 @@ impl LiveKernel {
 
     /// # Errors
     /// The kernel cannot take the scene on this device.
-    pub fn prepare(&self, scene: &Scene, size: [u32; 2]) -> Result<State, TracerError> {
+    pub fn prepare(&self, scene: &Scene, sampling: Sampling, size: [u32; 2]) -> Result<State, TracerError> {
         Ok(match self {
-            Self::Course(_) => State::Course(Box::new(CourseScene::new(scene, scene.max_depth, size)?)),
-            Self::Whitted(live) => State::Whitted(Box::new(live.prepare(scene, size)?)),
+            Self::Course(_) => {
+                sampling.check_plain()?;
+                State::Course(Box::new(CourseScene::new(scene, scene.max_depth, size)?))
+            }
+            Self::Whitted(live) => State::Whitted(Box::new(live.prepare(scene, sampling, size)?)),
         })
     }
 
@@ -81,12 +85,14 @@ impl LiveKernel {
         }
     }
 
-    /// Traces these parts of the picture.
-    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, state: &State, parts: &[Part]) {
+    /// Traces these parts of the picture: the sample with this index of each pixel, the ones before being there.
+    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, state: &State, sample: u32, parts: &[Part]) {
         match (self, state) {
             (Self::Course(kernel), State::Course(scene)) => kernel.record(recorder, set, &scene.frame, parts),
             (Self::Whitted(live), State::Whitted(state)) => {
-                live.pipeline().iter().for_each(|pipeline| pipeline.record(recorder, set, &state.scene.frame, parts));
+                if let Some(pipeline) = live.pipeline() {
+                    pipeline.record(recorder, set, &state.scene.frame, sample, parts);
+                }
             }
             (Self::Course(_) | Self::Whitted(_), _) => {}
         }
@@ -94,6 +100,14 @@ impl LiveKernel {
 }
 
 impl State {
+    /// Of each pixel.
+    pub fn samples(&self) -> u32 {
+        match self {
+            Self::Course(_) => 1,
+            Self::Whitted(state) => state.scene.samples,
+        }
+    }
+
     /// Linear RGB.
     pub fn background(&self) -> [f32; 3] {
         match self {

@@ -8,6 +8,7 @@ use bytemuck::NoUninit;
 use super::course::WORKGROUP;
 use super::kernel_frame::Extent;
 use super::live_kernel::Begun;
+use super::sampling::Sampling;
 use super::whitted::{WhittedPipeline, WhittedScene, check_precision};
 use super::whitted_records::{SolidRecords, WhittedRecords};
 use super::{Kernel, TracerError};
@@ -57,7 +58,7 @@ impl LiveWhitted {
 
     /// # Errors
     /// The kernel cannot take the scene on this device.
-    pub fn prepare(&self, scene: &Scene, size: [u32; 2]) -> Result<WhittedState, TracerError> {
+    pub fn prepare(&self, scene: &Scene, sampling: Sampling, size: [u32; 2]) -> Result<WhittedState, TracerError> {
         let precision = self.kernel.precision();
         check_precision(&self.device, precision)?;
         let same = self.begun.as_ref().filter(|begun| begun.primitives.list == scene.primitives);
@@ -73,7 +74,7 @@ impl LiveWhitted {
         };
         let records = WhittedRecords::with(scene, solids, precision, size);
         let scene = WhittedScene::with(&self.device, scene, records, self.kernel, Cuts::NONE, scene.max_depth, size)?;
-        Ok(WhittedState { scene, primitives })
+        Ok(WhittedState { scene: scene.sampled(sampling, size), primitives })
     }
 
     /// Takes up a state: where the arrays keep their lengths, by what differs in them.

@@ -3,6 +3,7 @@
 mod canvas;
 mod chunks;
 mod course;
+mod enlarge;
 pub mod hierarchy;
 mod kernel_frame;
 mod live_kernel;
@@ -10,7 +11,9 @@ mod live_whitted;
 mod outlines;
 pub mod probe;
 mod records;
+pub mod sampling;
 mod scene_kernel;
+mod target;
 mod tiles;
 mod whitted;
 mod whitted_records;
@@ -33,12 +36,14 @@ pub use whitted::{Requirements, check_precision, scene_bindings, upload_scene};
 pub use whitted_records::{SolidRecords, WhittedFrame, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};
-use crate::gpu::{BindingSet, Buffer, BufferKind, Commands, Device, GpuError, Resource, StorageImage, Timer, Use};
-use crate::plan::{Cuts, Plan, tile_side};
+use crate::gpu::{BindingSet, Commands, Device, GpuError, Recorder, Timer, Use};
+use crate::plan::{Cuts, Plan};
 use crate::scene::Scene;
 use chunks::Part;
+use sampling::Sampling;
 use scene_kernel::SceneKernel;
-use tiles::{Tile, tiles};
+use target::{Enlarging, Target};
+use tiles::Tile;
 
 /// Why there is no frame. Each is one line.
 #[derive(Debug, thiserror::Error)]
@@ -110,6 +115,11 @@ pub struct Settings {
     /// The accurate kernel goes down no boxes: each ray looks at every solid. Slow; what the boxes may not change is
     /// tested against it.
     pub without_boxes: bool,
+    /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See [`sampling`].
+    pub samples: u32,
+    /// Size of the picture that is traced against the one asked for, to which it is brought by bilinear interpolation;
+    /// 1/4 to 1. The course kernel takes 1.
+    pub scale: f64,
 }
 
 impl Settings {
@@ -124,6 +134,8 @@ impl Settings {
             kernel: Kernel::Course,
             cuts: Cuts::NONE,
             without_boxes: false,
+            samples: 1,
+            scale: 1.0,
         }
     }
 
@@ -138,7 +150,13 @@ impl Settings {
             kernel: Kernel::Whitted(plan.precision.choice),
             cuts: plan.cuts,
             without_boxes: false,
+            samples: 1,
+            scale: 1.0,
         }
+    }
+
+    fn sampling(&self) -> Sampling {
+        Sampling { samples: self.samples, scale: self.scale }
     }
 }
 
@@ -146,14 +164,10 @@ impl Settings {
 pub struct Tracer {
     kernel: SceneKernel,
     set: Arc<BindingSet>,
-    tiles: Vec<Tile>,
-    /// Of the largest tile that `picture` holds, pixels.
-    tile_side: u32,
     width: u32,
     height: u32,
-    picture: Resource,
-    pixels: Arc<Buffer>,
-    read_back: Resource,
+    samples: u32,
+    target: Target,
     timer: Option<Arc<Timer>>,
     commands: Commands,
     device: Arc<Device>,
@@ -163,28 +177,19 @@ impl Tracer {
     /// # Errors
     /// A picture or a scene that the kernel cannot take, or a failing device.
     pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings) -> Result<Self, TracerError> {
-        let &Settings { width, height, max_depth, max_tile_side, .. } = settings;
+        let &Settings { width, height, max_depth, .. } = settings;
         Frame::check_size(width, height)?;
+        settings.sampling().check()?;
         let max_depth = max_depth.unwrap_or(scene.max_depth);
         let kernel = SceneKernel::new(device, scene, settings, max_depth)?;
-        let max_tile_side = max_tile_side.clamp(1, device.description().max_image_side);
-        let tile_side = tile_side(max_tile_side, scene.primitives.len(), scene.lights.len(), max_depth);
-        let (tile_width, tile_height) = (width.min(tile_side), height.min(tile_side));
-
-        let picture = Arc::new(StorageImage::new(device, "picture", tile_width, tile_height)?);
-        let tile_bytes = u64::from(tile_width) * u64::from(tile_height) * StorageImage::PIXEL_BYTES;
-        let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, tile_bytes)?);
-        let picture = Resource::from(&picture);
+        let target = Target::new(device, scene, settings, max_depth)?;
         Ok(Self {
-            set: kernel.bind(&picture)?,
+            set: kernel.bind(&target.traced)?,
             kernel,
-            tiles: tiles(width, height, tile_side),
-            tile_side,
             width,
             height,
-            picture,
-            read_back: Resource::from(&pixels),
-            pixels,
+            samples: settings.samples,
+            target,
             timer: Timer::new(device, "trace")?,
             commands: Commands::new(device, "trace")?,
             device: device.clone(),
@@ -199,14 +204,14 @@ impl Tracer {
     /// # Panics
     /// The settings have another size.
     pub fn take_up(&mut self, scene: &Scene, settings: &Settings) -> Result<(), TracerError> {
-        let &Settings { width, height, max_depth, max_tile_side, .. } = settings;
+        let &Settings { width, height, max_depth, .. } = settings;
         assert_eq!((width, height), (self.width, self.height), "the settings are of another size");
+        settings.sampling().check()?;
         let max_depth = max_depth.unwrap_or(scene.max_depth);
         self.kernel.take_up(&self.device, scene, settings, max_depth)?;
-        self.set = self.kernel.bind(&self.picture)?;
-        let max_tile_side = max_tile_side.clamp(1, self.tile_side);
-        let tile_side = tile_side(max_tile_side, scene.primitives.len(), scene.lights.len(), max_depth);
-        self.tiles = tiles(width, height, tile_side);
+        self.target.take_up(&self.device, scene, settings, max_depth)?;
+        self.set = self.kernel.bind(&self.target.traced)?;
+        self.samples = settings.samples;
         Ok(())
     }
 
@@ -218,7 +223,7 @@ impl Tracer {
     /// Draws the picture into `frame` and returns the GPU time of all its tiles, copies left out, in nanoseconds;
     /// `None` where the device has no timestamps.
     ///
-    /// `progress` hears of the pixels done after each tile and can stop the work there.
+    /// `progress` hears of the pixels done after each sample of each tile and can stop the work there.
     pub fn render(
         &mut self,
         frame: &mut Frame,
@@ -227,33 +232,53 @@ impl Tracer {
         assert_eq!((frame.width(), frame.height()), (self.width, self.height), "the frame is of another size");
         let mut gpu_time_ns = self.timer.as_ref().map(|_| 0);
         let mut pixels_done = 0;
-        for index in 0..self.tiles.len() {
-            let tile = self.tiles[index];
-            let tile_time_ns = self.trace(tile)?;
-            gpu_time_ns = gpu_time_ns.zip(tile_time_ns).map(|(sum, time)| sum + time);
-            let pixels: &[[f32; 4]] = bytemuck::cast_slice(self.pixels.bytes()?);
-            let written = &pixels[..(tile.width * tile.height) as usize];
-            let given_up = written.iter().filter(|[.., alpha]| *alpha != 1.0).count();
-            if given_up > 0 {
-                let device = self.device.description().name.clone();
-                return Err(TracerError::GaveUp { device, pixels: given_up });
+        for index in 0..self.target.tiles.len() {
+            let tile = self.target.tiles[index];
+            let tile_pixels = u64::from(tile.width) * u64::from(tile.height);
+            for sample in 0..self.samples {
+                let time_ns = self.trace(tile, sample)?;
+                gpu_time_ns = gpu_time_ns.zip(time_ns).map(|(sum, time)| sum + time);
+                if sample + 1 == self.samples {
+                    self.take_pixels(tile, frame)?;
+                }
+                let done = pixels_done + tile_pixels * u64::from(sample + 1) / u64::from(self.samples);
+                if progress(done).is_break() {
+                    return Err(TracerError::Stopped);
+                }
             }
-            tile.copy_pixels(pixels, frame);
-            pixels_done += u64::from(tile.width) * u64::from(tile.height);
-            if progress(pixels_done).is_break() {
-                return Err(TracerError::Stopped);
-            }
+            pixels_done += tile_pixels;
         }
         Ok(gpu_time_ns)
     }
 
+    /// What was read back of a tile, into its place in `frame`.
+    fn take_pixels(&self, tile: Tile, frame: &mut Frame) -> Result<(), TracerError> {
+        let pixels: &[[f32; 4]] = bytemuck::cast_slice(self.target.pixels.bytes()?);
+        let written = &pixels[..(tile.width * tile.height) as usize];
+        // Alpha counts the samples that came to their end.
+        let given_up = written.iter().filter(|[.., alpha]| *alpha != self.samples as f32).count();
+        if given_up > 0 {
+            let device = self.device.description().name.clone();
+            return Err(TracerError::GaveUp { device, pixels: given_up });
+        }
+        tile.copy_pixels(pixels, frame);
+        Ok(())
+    }
+
     /// From now on [`Tracer::render`] draws what each colour of the accurate kernel loses by rounding to `f32`, or the
     /// colours again: an `f64` picture is the sum of the two, good to 48 bits. Other kernels lose nothing.
+    ///
+    /// # Panics
+    /// The picture is not of one sample a pixel at scale 1: means and what lies between pixels are rounded besides.
     pub fn draw_remainder(&mut self, remainder: bool) {
+        assert!(self.samples == 1 && self.target.enlarging.is_none(), "only of one sample a pixel at scale 1");
         self.kernel.write_remainder(remainder);
     }
 
     /// Linear RGB, row by row from the top: of the `f64` kernel good to 48 bits, the colours and what they lose.
+    ///
+    /// # Panics
+    /// As of [`Tracer::draw_remainder`].
     pub fn render_f64(&mut self) -> Result<Vec<DVec3>, TracerError> {
         let mut frame = self.frame()?;
         let mut sum = vec![DVec3::ZERO; frame.pixels().len()];
@@ -271,21 +296,34 @@ impl Tracer {
         Ok(sum)
     }
 
-    /// Traces one tile and copies it to where the host reads it; returns the GPU time of the tracing.
-    fn trace(&mut self, tile: Tile) -> Result<Option<u64>, GpuError> {
-        let Self { kernel, set, picture, read_back, timer, commands, .. } = self;
-        let whole_tile = Part { first: [0, 0], groups: kernel.groups([tile.width, tile.height]) };
-        commands.run(|recorder| {
-            // Kernels write an alpha of 1 where they come to their end.
-            recorder.make_ready(picture, Use::CopyTarget);
-            recorder.clear(picture, [0.0; 4]);
+    /// Traces one sample of each pixel of a tile and, with the last one, copies the tile to where the host reads it;
+    /// returns the GPU time of the tracing, and of the enlarging where there is any.
+    fn trace(&mut self, tile: Tile, sample: u32) -> Result<Option<u64>, GpuError> {
+        let Self { kernel, set, target, timer, commands, samples, .. } = self;
+        let Target { traced, enlarging, read_back, .. } = target;
+        let traced_tile = enlarging.as_ref().map_or(tile, |enlarging| enlarging.enlarger.traced_tile(tile));
+        let whole_tile = Part { first: [0, 0], groups: kernel.groups([traced_tile.width, traced_tile.height]) };
+        let is_last = sample + 1 == *samples;
+        let record = |recorder: &mut Recorder| {
+            if sample == 0 {
+                // Kernels count in alpha the samples that come to their end.
+                recorder.make_ready(traced, Use::CopyTarget);
+                recorder.clear(traced, [0.0; 4]);
+            }
             recorder.labelled("trace", |recorder| {
-                recorder.make_ready(picture, Use::ShaderWrite);
+                recorder.make_ready(traced, Use::ShaderWrite);
                 timer.iter().for_each(|timer| recorder.start(timer));
-                kernel.record(recorder, set, [tile.x, tile.y], whole_tile);
+                kernel.record(recorder, set, [traced_tile.x, traced_tile.y], sample, whole_tile);
+                if let Some(Enlarging { enlarger, set, picture }) = enlarging.as_ref().filter(|_| is_last) {
+                    enlarger.record(recorder, set, [picture, traced], tile);
+                }
                 timer.iter().for_each(|timer| recorder.stop(timer));
                 Ok(())
             })?;
+            if !is_last {
+                return Ok(());
+            }
+            let picture = enlarging.as_ref().map_or(&*traced, |enlarging| &enlarging.picture);
             recorder.labelled("read back", |recorder| {
                 recorder.make_ready(picture, Use::CopySource);
                 recorder.make_ready(read_back, Use::CopyTarget);
@@ -293,7 +331,12 @@ impl Tracer {
                 recorder.make_ready(read_back, Use::HostRead);
                 Ok(())
             })
-        })?;
+        };
+        if sample == 0 {
+            commands.run(record)?
+        } else {
+            commands.go_on(record)?
+        }
         timer.as_deref().map(Timer::elapsed_ns).transpose()
     }
 }

@@ -149,6 +149,9 @@ impl Probe {
             writes_remainder: 0,
             least_weight: 0.0,
             least_shadowed: 0.0,
+            sample_place: [0, 0],
+            samples_before: 0,
+            sample_weight: 1.0,
         };
         let scene = upload_scene(&self.device, &records, precision)?;
         let bytes = precision.bytes(cast_slice(&rows));

@@ -24,6 +24,7 @@ impl SceneKernel {
         let workgroup = settings.workgroup;
         Ok(match settings.kernel {
             Kernel::Course => {
+                settings.sampling().check_plain()?;
                 let size = [settings.width, settings.height];
                 let CourseScene { frame, primitives } = CourseScene::new(scene, max_depth, size)?;
                 let kernel = CourseKernel::new(device, &shaders::COURSE, primitives, max_depth, workgroup)?;
@@ -91,13 +92,14 @@ impl SceneKernel {
         matches!(self, Self::Whitted { .. })
     }
 
-    /// Traces a part of the tile whose corner is at these pixels of the picture.
-    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, [x, y]: [u32; 2], part: Part) {
+    /// Traces a part of the tile whose corner is at these pixels of the picture: the sample with this index of each
+    /// pixel, the ones before being there.
+    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, [x, y]: [u32; 2], sample: u32, part: Part) {
         match self {
             Self::Course { kernel, frame } => kernel.record(recorder, set, &frame.at_tile(x, y), &[part]),
             Self::Whitted { pipeline, frame, .. } => {
                 let frame = WhittedFrame { tile_origin: x | y << 16, ..*frame };
-                pipeline.record(recorder, set, &frame, &[part]);
+                pipeline.record(recorder, set, &frame, sample, &[part]);
             }
         }
     }
@@ -110,6 +112,7 @@ fn whitted_scene(
     max_depth: u32,
 ) -> Result<WhittedScene, TracerError> {
     let &Settings { width, height, kernel, cuts, without_boxes, .. } = settings;
-    let scene = WhittedScene::new(device, scene, kernel, cuts, max_depth, [width, height])?;
+    let size = [width, height];
+    let scene = WhittedScene::new(device, scene, kernel, cuts, max_depth, size)?.sampled(settings.sampling(), size);
     Ok(if without_boxes { scene.without_boxes() } else { scene })
 }

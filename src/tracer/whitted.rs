@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::chunks::Part;
 use super::kernel_frame::KernelFrame;
+use super::sampling::Sampling;
 use super::whitted_records::{WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{
@@ -82,6 +83,8 @@ pub struct Requirements {
     pub lights: u32,
     pub shadows: bool,
     pub reflections: bool,
+    /// Pixels have more than one sample.
+    pub samples: bool,
 }
 
 impl Requirements {
@@ -97,10 +100,11 @@ impl Requirements {
             lights: lights(cuts.lights),
             shadows: cuts.shadows && has_lights,
             reflections: cuts.reflections && max_depth > 1,
+            samples: false,
         }
     }
 
-    /// The specialization constants of `glsl/whitted/real.glsl` and `scene.glsl`, and the workgroup of `whitted.comp`.
+    /// The specialization constants of `glsl/whitted/real.glsl`, `scene.glsl` and `whitted.comp`.
     ///
     /// # Errors
     /// The device fails when its arithmetic is tried.
@@ -109,7 +113,7 @@ impl Requirements {
         device: &Arc<Device>,
         precision: Precision,
         [width, height]: [u32; 2],
-    ) -> Result<[u32; 18], GpuError> {
+    ) -> Result<[u32; 19], GpuError> {
         let float_width = match precision {
             Precision::F32 => FloatWidth::F32,
             Precision::F64 => FloatWidth::F64,
@@ -117,7 +121,7 @@ impl Requirements {
         let has_fused_fma = u32::from(arithmetic(device, float_width)?.fused_fma);
         let [spheres, boxes, cylinders, cones] = self.kinds.map(u32::from);
         let [sphere_levels, box_levels, cylinder_levels, cone_levels] = self.levels;
-        let &Self { highlights, balls, lights, shadows, reflections, .. } = self;
+        let &Self { highlights, balls, lights, shadows, reflections, samples, .. } = self;
         Ok([
             has_fused_fma,
             spheres,
@@ -137,6 +141,7 @@ impl Requirements {
             u32::from(shadows),
             u32::from(reflections),
             balls,
+            u32::from(samples),
         ])
     }
 }
@@ -221,6 +226,8 @@ pub(super) struct WhittedScene {
     requirements: Requirements,
     /// Of the whole picture.
     pub frame: WhittedFrame,
+    /// Of each pixel.
+    pub samples: u32,
     /// Linear RGB.
     pub background: [f32; 3],
 }
@@ -268,9 +275,22 @@ impl WhittedScene {
             writes_remainder: 0,
             least_weight: cuts.least_weight,
             least_shadowed: cuts.least_shadowed,
+            sample_place: [0, 0],
+            samples_before: 0,
+            sample_weight: 1.0,
         };
         let requirements = Requirements::of(&records, &cuts, max_depth);
-        Ok(Self { kernel, records, requirements, frame, background: scene.background.as_vec3().to_array() })
+        let background = scene.background.as_vec3().to_array();
+        Ok(Self { kernel, records, requirements, frame, samples: 1, background })
+    }
+
+    /// Traced so for a picture of `size` pixels: what the window shows stays the same to the last bit.
+    pub fn sampled(mut self, sampling: Sampling, size: [u32; 2]) -> Self {
+        let [width, height] = sampling.traced_size(size);
+        self.frame.image_size = width | height << 16;
+        self.samples = sampling.samples;
+        self.requirements.samples = sampling.samples > 1;
+        self
     }
 
     /// For [`Settings::without_boxes`](super::Settings).
@@ -335,8 +355,16 @@ impl WhittedPipeline {
         BindingSet::new(&self.pipeline, &resources)
     }
 
-    /// Traces these parts of the picture.
-    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, frame: &WhittedFrame, parts: &[Part]) {
+    /// Traces these parts of the picture: the sample with this index of each pixel, the ones before being there.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder,
+        set: &Arc<BindingSet>,
+        frame: &WhittedFrame,
+        sample: u32,
+        parts: &[Part],
+    ) {
+        let frame = &frame.at_sample(sample);
         let parts = parts.iter().map(|part| ([part.first[0], part.first[1], 0], [part.groups[0], part.groups[1], 1]));
         recorder.dispatch_parts(&self.pipeline, set, bytemuck::bytes_of(frame), parts);
     }

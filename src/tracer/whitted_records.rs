@@ -13,6 +13,7 @@ use rayon::prelude::*;
 use super::hierarchy::{self, Bounds, GROUP, Level};
 use super::kernel_frame::{KernelFrame, Reach, two_sum};
 use super::outlines::{bounds, is_turned, level_rows, nothing, outline};
+use super::sampling::sample_place;
 use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, SOLID_ROWS, VIEW_ROWS};
 use crate::scene::{Camera, Light, Primitive, Projection, Scene, Solid, SolidKind, world_from_box};
 
@@ -321,4 +322,18 @@ pub struct WhittedFrame {
     pub least_weight: f32,
     /// [`Cuts::least_shadowed`](crate::plan::Cuts).
     pub least_shadowed: f32,
+    /// In the pixel, sub-pixels from its top left.
+    pub sample_place: [u32; 2],
+    /// Of each pixel, that the picture is the mean of.
+    pub samples_before: u32,
+    /// Of this one in the mean.
+    pub sample_weight: f32,
+}
+
+impl WhittedFrame {
+    /// For the sample with this index, where pixels have several.
+    pub(super) fn at_sample(self, index: u32) -> Self {
+        let sample_weight = 1.0 / (index + 1) as f32;
+        Self { sample_place: sample_place(index), samples_before: index, sample_weight, ..self }
+    }
 }

@@ -1,0 +1,87 @@
+//! What a [`Tracer`](super::Tracer) draws into: images of one tile, and where the host reads it.
+
+use std::sync::Arc;
+
+use super::enlarge::Enlarger;
+use super::tiles::{Tile, tiles};
+use super::{Settings, TracerError};
+use crate::gpu::{BindingSet, Buffer, BufferKind, Device, Resource, StorageImage};
+use crate::plan::tile_side;
+use crate::scene::Scene;
+
+pub(super) struct Target {
+    /// Of the picture asked for.
+    pub tiles: Vec<Tile>,
+    /// A tile as it is traced.
+    pub traced: Resource,
+    /// Where that is smaller than the tile.
+    pub enlarging: Option<Enlarging>,
+    pub pixels: Arc<Buffer>,
+    /// The same.
+    pub read_back: Resource,
+    scale: f64,
+    /// Of the largest tile that the images hold, pixels as traced.
+    traced_side: u32,
+}
+
+/// A tile of the picture asked for, made from the traced one.
+pub(super) struct Enlarging {
+    pub enlarger: Enlarger,
+    pub set: Arc<BindingSet>,
+    pub picture: Resource,
+}
+
+impl Target {
+    pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings, max_depth: u32) -> Result<Self, TracerError> {
+        let &Settings { width, height, scale, .. } = settings;
+        let size = [width, height];
+        let traced_side = traced_side(scene, settings, max_depth, device.description().max_image_side);
+        let tile_side = shown_side(traced_side, scale, device);
+        let tile = size.map(|side| side.min(tile_side));
+        let image = |name, [width, height]: [u32; 2]| {
+            Ok::<_, TracerError>(Resource::from(&Arc::new(StorageImage::new(device, name, width, height)?)))
+        };
+        let (traced, enlarging) = if scale < 1.0 {
+            let enlarger = Enlarger::new(device, size, settings.sampling().traced_size(size))?;
+            let traced = image("traced", enlarger.most_traced(tile))?;
+            let picture = image("picture", tile)?;
+            let set = enlarger.bind(&picture, &traced)?;
+            (traced, Some(Enlarging { enlarger, set, picture }))
+        } else {
+            (image("picture", tile)?, None)
+        };
+        let tile_bytes = u64::from(tile[0]) * u64::from(tile[1]) * StorageImage::PIXEL_BYTES;
+        let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, tile_bytes)?);
+        let (tiles, read_back) = (tiles(width, height, tile_side), Resource::from(&pixels));
+        Ok(Self { tiles, traced, enlarging, pixels, read_back, scale, traced_side })
+    }
+
+    /// For another scene or other settings of the same size; the images are kept where they fit.
+    pub fn take_up(
+        &mut self,
+        device: &Arc<Device>,
+        scene: &Scene,
+        settings: &Settings,
+        max_depth: u32,
+    ) -> Result<(), TracerError> {
+        let &Settings { width, height, scale, .. } = settings;
+        if scale == self.scale {
+            let traced_side = traced_side(scene, settings, max_depth, self.traced_side);
+            self.tiles = tiles(width, height, shown_side(traced_side, scale, device));
+        } else {
+            *self = Self::new(device, scene, settings, max_depth)?;
+        }
+        Ok(())
+    }
+}
+
+/// Of what one submission traces, pixels: at most `limit`.
+fn traced_side(scene: &Scene, settings: &Settings, max_depth: u32, limit: u32) -> u32 {
+    let max_tile_side = settings.max_tile_side.clamp(1, limit);
+    tile_side(max_tile_side, scene.primitives.len(), scene.lights.len(), max_depth)
+}
+
+/// Of the tile made from that, but for the neighbours that its edge needs.
+fn shown_side(traced_side: u32, scale: f64, device: &Device) -> u32 {
+    ((f64::from(traced_side) / scale) as u32).min(device.description().max_image_side)
+}
