@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::preferences::Preferences;
 use crate::scene::{Light, Material, Projection, Solid, SolidKind};
+use crate::tracer::sampling::Sampling;
 use crate::tracer::{self, Precision};
 
 /// One wish. Edits go through the undo history; a wish that cannot be granted changes nothing and shows a message.
@@ -69,6 +70,8 @@ pub enum Action {
     // ---- The window.
     SetPreferences(Preferences),
     SetKernel(Kernel),
+    /// Of the accurate kernel.
+    SetSampling(Sampling),
     SetContinuous(bool),
     ShowHelp(bool),
 }

@@ -31,6 +31,8 @@ pub struct Observation {
     pub picture_size: [u32; 2],
     /// Whether all of the picture is of the scene as it is now.
     pub is_whole: bool,
+    /// Whether it has all its samples, too.
+    pub is_finished: bool,
     pub pictures_traced: u64,
     /// From the change of the scene to the first whole picture of it being shown, ms; of the last change.
     pub latency_ms: Option<f64>,
@@ -80,6 +82,7 @@ impl Observation {
             picture_corner: [corner.x.round() as u32, corner.y.round() as u32],
             picture_size: [0, 0],
             is_whole: false,
+            is_finished: false,
             pictures_traced: 0,
             latency_ms: None,
             gpu_time_ms: None,

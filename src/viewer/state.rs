@@ -10,6 +10,7 @@ use super::edits::Refusal;
 use super::preferences::Preferences;
 use crate::frame::FileFormat;
 use crate::scene::{Scene, gallery};
+use crate::tracer::sampling::Sampling;
 
 /// All of the window but its picture.
 #[derive(Debug)]
@@ -17,6 +18,8 @@ pub struct State {
     pub document: Document,
     pub preferences: Preferences,
     pub kernel: Kernel,
+    /// How finely the accurate kernel traces; see [`State::sampling`].
+    pub accurate_sampling: Sampling,
     /// Traces anew though nothing changes, as measuring needs.
     pub is_continuous: bool,
     pub is_help_shown: bool,
@@ -110,12 +113,21 @@ impl State {
             document,
             preferences: preferences.clamped(),
             kernel: Kernel::default(),
+            accurate_sampling: Sampling::PLAIN,
             is_continuous: false,
             is_help_shown: false,
             dialog: recovered.as_ref().map(|_| Dialog::Recover),
             messages: VecDeque::new(),
             errand: Errand::None,
             recovered,
+        }
+    }
+
+    /// How finely the kernel that draws traces; those other than the accurate one know but one way.
+    pub fn sampling(&self) -> Sampling {
+        match self.kernel {
+            Kernel::Accurate(_) => self.accurate_sampling,
+            Kernel::Course | Kernel::Reference => Sampling::PLAIN,
         }
     }
 
@@ -152,9 +164,10 @@ impl State {
     fn takes(&self, action: &Action) -> bool {
         use Action::{
             AnswerRecover, AnswerUnsaved, CloseDialog, OpenFile, Quit, SaveTo, ScreenshotTo, SetContinuous, SetKernel,
-            SetPreferences, ShowHelp,
+            SetPreferences, SetSampling, ShowHelp,
         };
-        let is_window_setting = matches!(action, SetPreferences(_) | SetKernel(_) | SetContinuous(_) | ShowHelp(_));
+        let is_window_setting =
+            matches!(action, SetPreferences(_) | SetKernel(_) | SetSampling(_) | SetContinuous(_) | ShowHelp(_));
         let is_answer = match &self.dialog {
             None => true,
             Some(Dialog::Message(_)) => matches!(action, CloseDialog | Quit),
@@ -216,6 +229,7 @@ impl State {
 
             Action::SetPreferences(preferences) => self.preferences = preferences.clamped(),
             Action::SetKernel(kernel) => self.kernel = kernel,
+            Action::SetSampling(sampling) => self.accurate_sampling = sampling,
             Action::SetContinuous(is_continuous) => self.is_continuous = is_continuous,
             Action::ShowHelp(is_shown) => self.is_help_shown = is_shown,
         }

@@ -1,9 +1,10 @@
 //! Language, looks, menus and what is told of the tracing.
 
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable;
+use egui_kittest::kittest::{NodeT, Queryable};
 use zerkalo::scene::gallery;
 use zerkalo::tracer::Precision;
+use zerkalo::tracer::sampling::Sampling;
 use zerkalo::viewer::action::{Action, Effect, Kernel};
 use zerkalo::viewer::preferences::{Language, Preferences, Theme};
 use zerkalo::viewer::state::{Dialog, FilePurpose};
@@ -80,6 +81,29 @@ fn camera_and_kernel_answer_to_their_widgets() {
     assert_eq!((scene.camera.projection.name(), state.kernel), ("course", Kernel::Reference));
     assert_eq!(state.preferences.fly_speed, 8.0);
     assert!(state.preferences.is_mouse_inverted && state.is_continuous);
+}
+
+#[test]
+fn samples_and_scale_are_set_where_the_kernel_has_them_and_stay_in_range() {
+    let mut window = open(Language::English);
+    let (samples, scale) = ("Scene and camera: samples per pixel", "Scene and camera: render scale");
+    let is_enabled = |window: &Window, name: &str| !window.get_by_label(name).accesskit_node().is_disabled();
+    assert!(!is_enabled(&window, samples) && !is_enabled(&window, scale), "the course kernel knows but one way");
+    click(&mut window, "Accurate f32 (Vulkan)");
+    assert!(is_enabled(&window, samples) && is_enabled(&window, scale));
+    assert_eq!(window.state().state.sampling(), Sampling::PLAIN);
+    for (typed, taken) in [("16", 16), ("0", 1), ("1000", 64), ("2.6", 3)] {
+        type_into(&mut window, samples, typed);
+        assert_eq!(window.state().state.sampling().samples, taken, "{typed}");
+    }
+    for (typed, taken) in [("0,5", 0.5), ("0", 0.25), ("7", 1.0), ("0.3", 0.3)] {
+        type_into(&mut window, scale, typed);
+        assert_eq!(window.state().state.sampling(), Sampling { samples: 3, scale: taken }, "{typed}");
+    }
+    click(&mut window, "Reference (CPU)");
+    assert_eq!(window.state().state.sampling(), Sampling::PLAIN);
+    click(&mut window, "Accurate f64 (Vulkan)");
+    assert_eq!(window.state().state.sampling(), Sampling { samples: 3, scale: 0.3 });
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 use zerkalo::frame::{Frame, display_value};
 use zerkalo::scene::gallery;
+use zerkalo::viewer::pick::pick;
 
 use crate::driver::{Desk, Locale};
 
@@ -87,6 +88,34 @@ fn the_accurate_kernel_draws_on_the_device_with_as_many_lights_as_there_are() {
     assert!(window.screenshot("two lights.exr") == desk.render_by("whitted", "two.toml", size));
     window.click("Точная f64 (Vulkan)");
     window.wait_until("twice the digits", |now| now.kernel == "whitted f64" && now.is_whole && now.refusal.is_none());
+    window.close();
+}
+
+#[test]
+fn samples_are_added_while_the_window_rests_and_the_scale_changes_what_is_traced_alone() {
+    let desk = Desk::new(Locale::Russian, [560, 300]);
+    let mut window = desk.view(&["four"]);
+    window.click("Точная f32 (Vulkan)");
+    window.wait_until("it draws", |now| now.kernel == "whitted f32" && now.is_whole);
+    let (size, traced) = (window.settle().picture_size, window.last().pictures_traced);
+    window.fill("Сцена и камера: лучей на пиксель", 5.0);
+    window.wait_until("all samples", |now| now.is_finished && now.pictures_traced >= traced + 5);
+    let traced = window.settle().pictures_traced;
+    assert!(window.screenshot("samples.exr") == desk.render_with(&["--samples", "5"], "four", size));
+    assert_eq!(window.settle().pictures_traced, traced, "it rests");
+
+    window.fill("Сцена и камера: масштаб трассировки", 0.5);
+    window.wait_until("a smaller picture", |now| now.is_finished && now.pictures_traced >= traced + 5);
+    let scaled = desk.render_with(&["--samples", "5", "--scale", "0.5"], "four", size);
+    assert!(window.screenshot("scaled.exr") == scaled);
+    // What is seen is what is picked.
+    let scene = gallery::scene("four").unwrap();
+    let is_seen = |&(x, y): &(u32, u32)| pick(&scene, size[0], size[1], x, y).is_some();
+    let (x, y) = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| (x, y))).find(is_seen).expect("a primitive");
+    let chosen = pick(&scene, size[0], size[1], x, y);
+    let place = window.now().in_picture_pixel([x, y]);
+    window.click_at(place);
+    window.wait_until("it is selected", |now| now.selection == chosen);
     window.close();
 }
 

@@ -5,6 +5,7 @@ use egui::Ui;
 use super::fields::{RGB, Scale, check, choice, group, number, number_row, vector};
 use crate::scene::{DEPTH_LIMIT, Projection};
 use crate::tracer::Precision;
+use crate::tracer::sampling::{MAX_SAMPLES, MIN_SCALE, Sampling};
 use crate::viewer::action::{Action, Kernel};
 use crate::viewer::preferences::Preferences;
 use crate::viewer::state::State;
@@ -12,6 +13,10 @@ use crate::viewer::text::Words;
 
 /// Generations of a ray.
 const DEPTH: Scale = Scale::new(1.0..=DEPTH_LIMIT as f64, 1.0);
+/// Of a pixel.
+const SAMPLES: Scale = Scale::new(1.0..=MAX_SAMPLES as f64, 1.0);
+/// Of the traced picture against the one shown.
+const SCALE: Scale = Scale::new(MIN_SCALE..=1.0, 20.0);
 
 pub fn show(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>) {
     let groups = &words.groups;
@@ -35,6 +40,8 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>
         }
         show_flight(ui, words, &state.preferences, actions);
         show_kernel(ui, words, state.kernel, actions);
+        let has_sampling = matches!(state.kernel, Kernel::Accurate(_));
+        ui.add_enabled_ui(has_sampling, |ui| show_sampling(ui, words, state.accurate_sampling, actions));
     });
 }
 
@@ -70,6 +77,18 @@ fn show_kernel(ui: &mut Ui, words: &Words, now: Kernel, actions: &mut Vec<Action
             }
         }
     });
+}
+
+fn show_sampling(ui: &mut Ui, words: &Words, now: Sampling, actions: &mut Vec<Action>) {
+    let groups = &words.groups;
+    let samples = ui.horizontal(|ui| number(ui, groups.camera, groups.samples, now.samples.into(), &SAMPLES));
+    samples.response.on_hover_text(groups.samples_hint);
+    let scale = ui.horizontal(|ui| number(ui, groups.camera, groups.scale, now.scale, &SCALE));
+    scale.response.on_hover_text(groups.scale_hint);
+    // invariant: the scale keeps it in the range of `u32`.
+    let samples = samples.inner.map(|samples| Sampling { samples: samples.round() as u32, ..now });
+    actions.extend(samples.map(Action::SetSampling));
+    actions.extend(scale.inner.map(|scale| Action::SetSampling(Sampling { scale, ..now })));
 }
 
 fn show_flight(ui: &mut Ui, words: &Words, now: &Preferences, actions: &mut Vec<Action>) {

@@ -137,5 +137,6 @@ fn sets_a_value(action: &Action) -> bool {
             | Action::SetBackground(_)
             | Action::SetMaxDepth(_)
             | Action::SetVerticalFov(_)
+            | Action::SetSampling(_)
     )
 }

@@ -76,12 +76,12 @@ impl Session {
     }
 
     fn trace(&mut self) -> Result<(), ScreenError> {
-        let is_whole_before = self.is_whole();
+        let stage_before = (self.is_whole(), self.is_finished());
         let Some(screen) = &mut self.screen else { return Ok(()) };
         screen.trace()?;
         // While picture follows picture, the next one tells of the last one's time.
         let has_news = self.take_times() && !self.state.is_continuous;
-        if has_news || self.is_whole() != is_whole_before {
+        if has_news || (self.is_whole(), self.is_finished()) != stage_before {
             self.wake();
         }
         Ok(())
@@ -92,7 +92,7 @@ impl Session {
         if self.state.dialog.is_some() {
             self.input.let_go();
         }
-        let is_whole_before = self.is_whole();
+        let stage_before = (self.is_whole(), self.is_finished());
         self.fly();
         let (mut widgets, observation, repaint_delay) = self.run_widgets();
         self.widgets_due = Instant::now().checked_add(repaint_delay);
@@ -104,7 +104,7 @@ impl Session {
         self.show_title();
         self.observe(observation);
         let is_next_due = self.state.is_continuous && self.state.kernel != Kernel::Reference && self.is_whole();
-        if self.is_whole() != is_whole_before || is_next_due {
+        if (self.is_whole(), self.is_finished()) != stage_before || is_next_due {
             // The widgets have told of what was, or a screenshot has held up the next picture.
             self.wake();
         }
@@ -276,7 +276,7 @@ impl Session {
     }
 
     fn observe(&mut self, observation: Option<Observation>) {
-        let is_whole = self.is_whole();
+        let (is_whole, is_finished) = (self.is_whole(), self.is_finished());
         let (Some(observer), Some(mut observation), Some(screen)) = (&mut self.observer, observation, &self.screen)
         else {
             return;
@@ -285,6 +285,7 @@ impl Session {
         observation.window = [size.width, size.height];
         observation.picture_size = screen.canvas.size();
         observation.is_whole = is_whole;
+        observation.is_finished = is_finished;
         observation.pictures_traced = self.pictures_traced;
         observation.latency_ms = self.latency.last_ms;
         observation.gpu_time_ms = self.frame_times.percentile_ns(50).map(|median_ns| median_ns as f64 / 1e6);

@@ -8,7 +8,7 @@ use super::super::screen::ScreenError;
 use super::super::state::Message;
 use super::{Reference, Screenshot, Session};
 use crate::scene::Scene;
-use crate::tracer::TracerError;
+use crate::tracer::{Canvas, TracerError};
 
 impl Session {
     /// A kernel compiled meanwhile takes the last one's place; a broken one is told of, and the last good one goes on.
@@ -34,6 +34,9 @@ impl Session {
             screen.canvas.resize(&mut screen.in_flight, size)?;
             self.frame_times.clear();
             self.reference.shown = None;
+        }
+        if screen.canvas.set_sampling(&mut screen.in_flight, self.state.sampling())? {
+            self.frame_times.clear();
         }
         let scene = self.state.document.scene();
         let asked = match self.state.kernel.on_device() {
@@ -95,11 +98,20 @@ impl Session {
 
     /// Whether the picture shown is all of the scene as it is now.
     pub(super) fn is_whole(&self) -> bool {
-        let is_traced = self.screen.as_ref().is_some_and(|screen| screen.canvas.is_whole());
+        self.is_shown(Canvas::is_whole)
+    }
+
+    /// Whether it is, and has all samples.
+    pub(super) fn is_finished(&self) -> bool {
+        self.is_shown(Canvas::is_finished)
+    }
+
+    fn is_shown(&self, is_traced: impl Fn(&Canvas) -> bool) -> bool {
+        let is_traced = self.screen.as_ref().is_some_and(|screen| is_traced(&screen.canvas));
         self.refusal.is_none() && self.reference.worker.is_none() && is_traced
     }
 
-    /// Of whole pictures only: until then they wait, and one whose scene has changed meanwhile is not taken.
+    /// Of finished pictures only: until then they wait, and one whose scene has changed meanwhile is not taken.
     pub(super) fn take_screenshots(&mut self) -> Result<(), ScreenError> {
         if self.screenshots.is_empty() {
             return Ok(());
@@ -117,7 +129,7 @@ impl Session {
             self.state.say(Message::SceneChanged);
             self.wake();
         }
-        if self.screenshots.is_empty() || !self.is_whole() {
+        if self.screenshots.is_empty() || !self.is_finished() {
             return Ok(());
         }
         let Some(screen) = &mut self.screen else { return Ok(()) };

@@ -101,7 +101,14 @@ fn actions_under_a_dialog_are_ignored_but_the_window_s_settings() {
     assert!(message(&state).is_some());
     state.apply(Action::SetKernel(Kernel::Reference));
     state.apply(Action::SetContinuous(true));
+    let sampling = Sampling { samples: 9, scale: 0.5 };
+    state.apply(Action::SetSampling(sampling));
     assert_eq!((state.kernel, state.is_continuous), (Kernel::Reference, true));
+    assert_eq!(
+        (state.accurate_sampling, state.sampling()),
+        (sampling, Sampling::PLAIN),
+        "the reference has its own way"
+    );
     state.apply(Action::CloseDialog);
     assert_eq!(state.dialog, None);
 }

@@ -79,6 +79,12 @@ pub(super) static WORDS: Words = Words {
         kernel_reference: "Reference (CPU)",
         kernel_reference_hint: "The accurate model (equation 1.19) in f64 on the CPU: slower, without the course's \
             shortcuts",
+        samples: "samples per pixel",
+        samples_hint: "Anti-aliasing by the accurate kernels on the Vulkan device: a pixel is the mean of so many rays, \
+            which are added one by one while nothing changes",
+        scale: "render scale",
+        scale_hint: "The accurate kernels on the Vulkan device trace the picture smaller by this and stretch it \
+            (bilinearly) to its place: faster, less sharp",
         reset_camera: "Reset the camera",
         fly_speed: "flying speed, units/s",
         invert_mouse: "Invert the mouse",

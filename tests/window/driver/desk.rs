@@ -119,12 +119,14 @@ impl Desk {
         self.render_by("course", scene, size)
     }
 
-    pub fn render_by(&self, kernel: &str, scene: &str, [width, height]: [u32; 2]) -> Frame {
+    pub fn render_by(&self, kernel: &str, scene: &str, size: [u32; 2]) -> Frame {
+        self.render_with(&["--kernel", kernel], scene, size)
+    }
+
+    pub fn render_with(&self, arguments: &[&str], scene: &str, [width, height]: [u32; 2]) -> Frame {
         let size = format!("{width}x{height}");
-        let Output { status, stderr, .. } = self
-            .program(&["render", scene, "-o", "rendered.exr", "--size", &size, "--kernel", kernel])
-            .output()
-            .unwrap();
+        let usual = ["render", scene, "-o", "rendered.exr", "--size", &size];
+        let Output { status, stderr, .. } = self.program(&[&usual, arguments].concat()).output().unwrap();
         assert!(status.success(), "{}", String::from_utf8_lossy(&stderr));
         Frame::load(&self.path("rendered.exr")).unwrap()
     }

@@ -10,6 +10,7 @@ pub struct Observation {
     pub picture_corner: [u32; 2],
     pub picture_size: [u32; 2],
     pub is_whole: bool,
+    pub is_finished: bool,
     pub pictures_traced: u64,
     pub primitives: usize,
     pub lights: usize,

@@ -104,7 +104,7 @@ impl<'a> Window<'a> {
     #[track_caller]
     pub fn settle(&mut self) -> Observation {
         loop {
-            self.wait_until("a whole picture", |now| now.is_whole);
+            self.wait_until("a whole picture", |now| now.is_finished);
             match self.observations.recv_timeout(REST) {
                 Ok(observation) => self.last = Some(observation),
                 Err(_) => return self.now().clone(),
