@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::gpu::DeviceDescription;
 use crate::plan::{Limits, Plan, PlanError, Precision, Structure, Wishes};
 use crate::scene::{Light, Scene, gallery};
+use crate::tracer::sampling::Sampling;
 use crate::tracer::{Kernel, KernelFrame, Requirements, Settings, WORKGROUP, WhittedRecords};
 
 /// Pixels. The checks are per command and per access, not per pixel.
@@ -22,6 +23,10 @@ const ERROR: f64 = 1.0 / 510.0;
 /// [octets](DeviceDescription::octets). No plan chooses it; where there are octets, it shows the kernels of other devices,
 /// and few scenes are enough.
 const NARROW_WORKGROUP: [u32; 2] = [4, 8];
+
+/// More than one sample a pixel, and a smaller picture enlarged. One scene shows what these add behind the tracing.
+const SAMPLED: Sampling = Sampling { samples: 3, scale: 0.5 };
+const SAMPLED_SCENE: &str = "showcase";
 
 /// How much of the gallery is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -118,6 +123,7 @@ struct Way {
     workgroup: [u32; 2],
     without_boxes: bool,
     error: f64,
+    sampling: Sampling,
 }
 
 fn ways(device: &DeviceDescription) -> Vec<Way> {
@@ -127,10 +133,11 @@ fn ways(device: &DeviceDescription) -> Vec<Way> {
     let mut ways = Vec::new();
     for kernel in [Kernel::Course, Kernel::Plain].into_iter().chain(whitted) {
         for &workgroup in workgroups {
-            let exact = Way { kernel, workgroup, without_boxes: false, error: 0.0 };
+            let exact = Way { kernel, workgroup, without_boxes: false, error: 0.0, sampling: Sampling::PLAIN };
             ways.push(exact);
             if kernel != Kernel::Course {
                 ways.push(Way { without_boxes: true, ..exact });
+                ways.push(Way { sampling: SAMPLED, ..exact });
             }
             if matches!(kernel, Kernel::Whitted(_)) {
                 ways.push(Way { error: ERROR, ..exact });
@@ -142,7 +149,7 @@ fn ways(device: &DeviceDescription) -> Vec<Way> {
 
 impl Way {
     fn name(self) -> String {
-        let Self { kernel, workgroup: [width, height], without_boxes, error } = self;
+        let Self { kernel, workgroup: [width, height], without_boxes, error, sampling } = self;
         let kernel = match kernel {
             Kernel::Course => "course".to_owned(),
             Kernel::Plain => "plain".to_owned(),
@@ -151,16 +158,25 @@ impl Way {
         let error = (error > 0.0).then(|| format!("error 1/{:.0}", 1.0 / error));
         let boxes = without_boxes.then(|| "without boxes".to_owned());
         let workgroup = ([width, height] != WORKGROUP).then(|| format!("workgroups of {width}x{height}"));
-        [Some(kernel), error, boxes, workgroup].into_iter().flatten().collect::<Vec<_>>().join(", ")
+        let sampling =
+            (sampling != Sampling::PLAIN).then(|| format!("{} samples at scale {}", sampling.samples, sampling.scale));
+        [Some(kernel), error, boxes, sampling, workgroup].into_iter().flatten().collect::<Vec<_>>().join(", ")
     }
 
     fn is_as_in_window(self) -> bool {
-        self == Self { kernel: self.kernel, workgroup: WORKGROUP, without_boxes: false, error: 0.0 }
+        let exact = Self {
+            kernel: self.kernel,
+            workgroup: WORKGROUP,
+            without_boxes: false,
+            error: 0.0,
+            sampling: Sampling::PLAIN,
+        };
+        self == exact
     }
 
     /// `None` where the kernel cannot draw that, or another way draws just the same.
     fn settings(self, subject: &Subject, limits: &Limits) -> Result<Option<Settings>, PlanError> {
-        let Self { kernel, workgroup, without_boxes, error } = self;
+        let Self { kernel, workgroup, without_boxes, error, sampling } = self;
         let scene = &subject.scene;
         let [width, height] = PICTURE;
         let wishes = Wishes { precision: Some(kernel.precision()), error, ..Wishes::exact(width, height) };
@@ -170,7 +186,8 @@ impl Way {
         let is_as_another = without_boxes && !has_boxes || error > 0.0 && cuts_nothing;
         // The course's kernel has one light.
         let is_refused = kernel == Kernel::Course && scene.lights.len() != 1;
-        if is_as_another || is_refused {
+        let is_shown_elsewhere = sampling != Sampling::PLAIN && subject.name != SAMPLED_SCENE;
+        if is_as_another || is_refused || is_shown_elsewhere {
             return Ok(None);
         }
         let settings = match kernel {
@@ -178,13 +195,14 @@ impl Way {
             Kernel::Whitted(_) => Settings::planned(&plan, width, height),
         };
         let max_tile_side = settings.max_tile_side.min(TILE_SIDE);
-        Ok(Some(Settings { max_tile_side, workgroup, without_boxes, ..settings }))
+        let Sampling { samples, scale } = sampling;
+        Ok(Some(Settings { max_tile_side, workgroup, without_boxes, samples, scale, ..settings }))
     }
 }
 
 /// What plans turn on and off, with whether this run has it; `None` for the course's kernel, which is always the same.
-fn states(run: &Run) -> Option<[(&'static str, bool); 14]> {
-    let &Settings { kernel, cuts, width, height, without_boxes, .. } = &run.settings;
+fn states(run: &Run) -> Option<[(&'static str, bool); 16]> {
+    let &Settings { kernel, cuts, width, height, without_boxes, samples, scale, .. } = &run.settings;
     if kernel == Kernel::Course {
         return None;
     }
@@ -200,6 +218,8 @@ fn states(run: &Run) -> Option<[(&'static str, bool); 14]> {
         lights,
         shadows,
         reflections,
+        // A scene does not tell how it is sampled.
+        samples: _,
     } = Requirements::of(&records, &cuts, max_depth);
     Some([
         ("spheres", spheres),
@@ -216,6 +236,8 @@ fn states(run: &Run) -> Option<[(&'static str, bool); 14]> {
         ("reflections", reflections),
         ("paths cut", cuts.least_weight > 0.0),
         ("shadow rays cut", cuts.least_shadowed > 0.0),
+        ("several samples", samples > 1),
+        ("enlarged", scale < 1.0),
     ])
 }
 
