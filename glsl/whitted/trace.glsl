@@ -61,6 +61,8 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
     Real3 emitted, ray_direction = ray.direction;
     uint light_index = 0u;
     Light lamp;
+    // The only one is read once.
+    if (LIGHTS == 1u) lamp = light(0u);
     Real light_distance;
     Real3 sent; // back along the ray, of what the lamp gives
     bool is_hit = false;
@@ -127,7 +129,7 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
             if (LIGHTS > 0u) {
                 for (;;) {
                     turns++;
-                    lamp = light(light_index);
+                    if (LIGHTS > 1u) lamp = light(light_index);
                     light_direction = towards(lamp, nearest.point, light_distance);
                     Real cosine = dot(nearest.normal, light_direction);
                     // A light at the hit point gives nothing.
