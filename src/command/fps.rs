@@ -1,21 +1,20 @@
 //! `zerkalo fps`: table 4.1 of the course work, measured here.
 
-use std::fs;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::time::Duration;
 
-use anyhow::{Context, Result};
+use anyhow::Result;
 use clap::{Args, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use super::interrupt::Listener;
 use super::render::parse_size;
-use super::{DeviceArgs, print_line, refuse_messages};
+use super::{DeviceArgs, parse_seconds, print_line, refuse_messages, report_files};
 use crate::gpu::{Device, Messages, Validation};
-use crate::measure::fps_table::{
-    self, Budget, FpsTable, FpsTableError, FrameTime, Machine, OffScreen, Plan, ReportFormat, Stage,
-};
+use crate::measure::fps_table::{self, FpsTable, OffScreen, Plan, Stage};
+use crate::measure::output::{OutputError, ReportFormat, check_output_path};
+use crate::measure::{Budget, FrameTime, Machine};
 use crate::scene::{Scene, SolidKind};
 use crate::tracer::TracerError;
 use crate::viewer::{Display, PictureWindow, Shown};
@@ -81,11 +80,6 @@ pub struct Stopped {
     advice: String,
 }
 
-fn parse_seconds(text: &str) -> Result<Duration, String> {
-    let seconds = text.parse::<f64>().ok().filter(|seconds| (0.001..=3600.0).contains(seconds));
-    seconds.map(Duration::from_secs_f64).ok_or("it must be a number of seconds, 0.001 to 3600".to_owned())
-}
-
 fn parse_count(text: &str) -> Result<usize, String> {
     let count = text.trim().parse().ok().filter(|count| Plan::course_counts().contains(count));
     count.ok_or("table 4.1 has 10, 20 and so on to 100 solids".to_owned())
@@ -107,7 +101,11 @@ pub fn run(args: &FpsArgs) -> Result<()> {
         }
         _ => FpsTable::new(machine, plan),
     };
-    let outputs = outputs(args)?;
+    let mut outputs = report_files(&args.output, "fps")?;
+    if let Some(path) = args.resume.as_ref().filter(|path| !outputs.contains(path)) {
+        check_output_path(path)?;
+        outputs.push(path.clone());
+    }
 
     let is_complete = fill(&mut table, &mut *stage, &outputs)?;
     drop(stage);
@@ -198,22 +196,6 @@ fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
     }
 }
 
-/// Every file to write, of which it is known that it can be written. A name without an extension is a folder's.
-fn outputs(args: &FpsArgs) -> Result<Vec<PathBuf>> {
-    let mut outputs = Vec::new();
-    for path in &args.output {
-        if path.is_dir() || path.extension().is_none() {
-            fs::create_dir_all(path).with_context(|| format!("could not create folder {path:?}"))?;
-            outputs.extend(ReportFormat::ALL.map(|format| path.join("fps").with_extension(format.extension())));
-        } else {
-            outputs.push(path.clone());
-        }
-    }
-    outputs.extend(args.resume.clone().filter(|path| !outputs.contains(path)));
-    outputs.iter().try_for_each(|path| FpsTable::check_output_path(path))?;
-    Ok(outputs)
-}
-
 /// Measures what is missing, and writes the table after every place of it; false after Ctrl-C.
 fn fill(table: &mut FpsTable, stage: &mut dyn Stage, outputs: &[PathBuf]) -> Result<bool> {
     let missing = table.missing();
@@ -242,7 +224,7 @@ fn fill(table: &mut FpsTable, stage: &mut dyn Stage, outputs: &[PathBuf]) -> Res
     Ok(true)
 }
 
-fn save(table: &FpsTable, outputs: &[PathBuf], wanted: impl Fn(ReportFormat) -> bool) -> Result<(), FpsTableError> {
+fn save(table: &FpsTable, outputs: &[PathBuf], wanted: impl Fn(ReportFormat) -> bool) -> Result<(), OutputError> {
     for path in outputs {
         if wanted(ReportFormat::of(path)?) {
             table.save(path)?;
@@ -290,9 +272,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn seconds_and_counts_are_within_their_limits() {
-        assert_eq!(parse_seconds("0.5"), Ok(Duration::from_millis(500)));
-        assert!(["0", "-1", "nan", "inf", "3601", "1e-9", "x", ""].iter().all(|bad| parse_seconds(bad).is_err()));
+    fn counts_are_those_of_the_table() {
         assert_eq!((parse_count("10"), parse_count("100")), (Ok(10), Ok(100)));
         assert!(["0", "5", "110", "-10", "ten", ""].iter().all(|bad| parse_count(bad).is_err()));
     }

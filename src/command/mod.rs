@@ -12,8 +12,10 @@ pub mod stability;
 pub mod validate;
 pub mod view;
 
+use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use anyhow::Context;
 use clap::{Args, Subcommand};
@@ -22,6 +24,7 @@ use serde::Serialize;
 use crate::frame::FrameError;
 use crate::gpu::{GpuError, Message};
 use crate::measure::fps_table::FpsTableError;
+use crate::measure::output::{OutputError, ReportFormat, check_output_path};
 use crate::plan::PlanError;
 use crate::scene::{Scene, SceneError, gallery as ready};
 use crate::tracer::TracerError;
@@ -86,6 +89,27 @@ fn scene_named(name: &str) -> Result<Scene, SceneError> {
     }
 }
 
+/// Every file that `-o` asks for, of which it is known that it can be written; a name without an extension is a folder's
+/// for one of each form, called `stem`.
+fn report_files(paths: &[PathBuf], stem: &str) -> anyhow::Result<Vec<PathBuf>> {
+    let mut files = Vec::new();
+    for path in paths {
+        if path.is_dir() || path.extension().is_none() {
+            fs::create_dir_all(path).with_context(|| format!("could not create folder {path:?}"))?;
+            files.extend(ReportFormat::ALL.map(|format| path.join(stem).with_extension(format.extension())));
+        } else {
+            files.push(path.clone());
+        }
+    }
+    files.iter().try_for_each(|path| check_output_path(path))?;
+    Ok(files)
+}
+
+fn parse_seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<f64>().ok().filter(|seconds| (0.001..=3600.0).contains(seconds));
+    seconds.map(Duration::from_secs_f64).ok_or("it must be a number of seconds, 0.001 to 3600".to_owned())
+}
+
 /// Tells what validation had to say; a failure if it said anything.
 fn refuse_messages(messages: &[Message]) -> anyhow::Result<()> {
     for message in messages {
@@ -112,6 +136,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.downcast_ref().is_some_and(TracerError::is_input_error)
             || cause.downcast_ref().is_some_and(ViewerError::is_input_error)
             || cause.downcast_ref().is_some_and(FpsTableError::is_input_error)
+            || cause.downcast_ref().is_some_and(OutputError::is_input_error)
             || cause.is::<PlanError>()
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });
@@ -121,5 +146,16 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
         2
     } else {
         1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn seconds_are_within_their_limits() {
+        assert_eq!(parse_seconds("0.5"), Ok(Duration::from_millis(500)));
+        assert!(["0", "-1", "nan", "inf", "3601", "1e-9", "x", ""].iter().all(|bad| parse_seconds(bad).is_err()));
     }
 }

@@ -3,11 +3,16 @@
 mod discontinuity;
 pub mod fps_table;
 mod image_error;
+mod machine;
 mod mask;
+pub mod output;
 pub mod stability;
 mod statistics;
+mod timing;
 
 pub use discontinuity::{Difference, bars};
 pub use image_error::{ComparisonError, ErrorDomain, ImageError, image_error};
+pub use machine::Machine;
 pub use mask::Mask;
-pub use statistics::{Summary, median};
+pub use statistics::{Summary, median, quartiles};
+pub use timing::{Budget, Clock, FrameTime, TimedTracer};

@@ -16,6 +16,13 @@ pub fn median(samples_ns: &[u64]) -> Option<u64> {
     median_of_sorted(&sorted(samples_ns))
 }
 
+/// First quartile, median and third quartile, between values as in [`Summary::quartiles_ns`]. `None` without values.
+pub fn quartiles(values: &[f64]) -> Option<[f64; 3]> {
+    let mut sorted = values.to_vec();
+    sorted.sort_unstable_by(f64::total_cmp);
+    (!sorted.is_empty()).then(|| [0.25, 0.5, 0.75].map(|share| quantile(&sorted, share)))
+}
+
 /// Samples of one time, nanoseconds, in figures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Summary {
@@ -40,6 +47,7 @@ impl Summary {
         let sorted = sorted(samples_ns);
         let median_ns = median_of_sorted(&sorted)?;
         let count = sorted.len();
+        let values: Vec<f64> = sorted.iter().map(|&sample| sample as f64).collect();
         let mean_ns = samples_ns.iter().map(|&sample| sample as f64).sum::<f64>() / count as f64;
         let squares: f64 = samples_ns.iter().map(|&sample| (sample as f64 - mean_ns).powi(2)).sum();
         let mut summary = Self {
@@ -47,7 +55,7 @@ impl Summary {
             median_ns,
             min_ns: sorted[0],
             max_ns: sorted[count - 1],
-            quartiles_ns: [quantile(&sorted, 0.25), quantile(&sorted, 0.75)],
+            quartiles_ns: [quantile(&values, 0.25), quantile(&values, 0.75)],
             mean_ns,
             stddev_ns: (count > 1).then(|| (squares / (count - 1) as f64).sqrt()),
             outliers: Vec::new(),
@@ -87,9 +95,9 @@ fn median_of_sorted(sorted: &[u64]) -> Option<u64> {
 }
 
 /// Of at least one sample.
-fn quantile(sorted: &[u64], share: f64) -> f64 {
+fn quantile(sorted: &[f64], share: f64) -> f64 {
     let place = share * (sorted.len() - 1) as f64;
-    let (low, high) = (sorted[place.floor() as usize] as f64, sorted[place.ceil() as usize] as f64);
+    let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);
     low + (high - low) * place.fract()
 }
 
@@ -104,6 +112,13 @@ mod tests {
         assert_eq!(median(&[9, 1, 5]), Some(5));
         assert_eq!(median(&[1, 2, 8, 100]), Some(5));
         assert_eq!(median(&[u64::MAX, u64::MAX]), Some(u64::MAX));
+    }
+
+    #[test]
+    fn quartiles_lie_between_values() {
+        assert_eq!(quartiles(&[]), None);
+        assert_eq!(quartiles(&[2.0]), Some([2.0; 3]));
+        assert_eq!(quartiles(&[4.0, 1.0, 2.0, 3.0, 5.0]), Some([2.0, 3.0, 4.0]));
     }
 
     #[test]

@@ -1,6 +1,7 @@
 use super::FpsTable;
 use super::figures::{Figures, figures};
 use crate::measure::Summary;
+use crate::measure::output::csv::{number, quoted};
 
 /// Names with units; what is not known is empty.
 const COLUMNS: &str = "kind,count,kernel,\
@@ -51,14 +52,6 @@ fn times(fps: Option<f64>, summary: Option<&Summary>) -> Vec<String> {
         number(summary.stddev_ns),
         summary.outliers.len().to_string(),
     ]
-}
-
-fn number(value: Option<f64>) -> String {
-    value.map_or(String::new(), |value| value.to_string())
-}
-
-fn quoted(text: &str) -> String {
-    format!("\"{}\"", text.replace('"', "\"\""))
 }
 
 #[cfg(test)]

@@ -2,7 +2,6 @@
 
 use std::collections::HashSet;
 use std::fs;
-use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -10,8 +9,7 @@ use thiserror::Error;
 
 use super::figures::{Figures, figures};
 use super::{Agreement, Cell, Clock, FpsTable, Kernel, Machine, Plan, chart, csv, markdown, published};
-use crate::frame::FrameError;
-use crate::whole_file::WholeFile;
+use crate::measure::output::{OutputError, ReportFormat, write_text};
 
 /// What a table's JSON says it is. The number is raised when an older program could not read it rightly.
 const FORMAT: &str = "zerkalo-fps-2";
@@ -19,72 +17,21 @@ const FORMAT: &str = "zerkalo-fps-2";
 /// Why a table could not be read, written or gone on with; each message is one line.
 #[derive(Debug, Error)]
 pub enum FpsTableError {
-    #[error("unknown report format: {path:?} must end in .json, .csv, .md, .png or .svg, or be a folder")]
-    UnknownFormat { path: PathBuf },
     #[error("could not read table {path:?}: {reason}")]
     Read { path: PathBuf, reason: String },
     #[error("table {path:?} cannot be gone on with: {differences}")]
     Differs { path: PathBuf, differences: String },
-    #[error("could not write {path:?}: {reason}")]
-    Write { path: PathBuf, reason: String },
-    #[error("could not draw the chart: {reason}")]
-    Chart { reason: String },
     #[error(transparent)]
-    Frame(#[from] FrameError),
+    Output(#[from] OutputError),
 }
 
 impl FpsTableError {
     /// Whether what the caller named is at fault, not the machine.
     pub fn is_input_error(&self) -> bool {
         match self {
-            Self::UnknownFormat { .. } | Self::Read { .. } | Self::Differs { .. } => true,
-            Self::Write { .. } | Self::Chart { .. } => false,
-            Self::Frame(error) => error.is_input_error(),
+            Self::Read { .. } | Self::Differs { .. } => true,
+            Self::Output(error) => error.is_input_error(),
         }
-    }
-
-    pub(super) fn write(path: &Path, reason: impl ToString) -> Self {
-        Self::Write { path: path.to_owned(), reason: reason.to_string() }
-    }
-}
-
-/// What a file holds of a table; its name's extension decides.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum ReportFormat {
-    /// Everything, every sample too; the one format that is read.
-    Json,
-    /// A line a cell.
-    Csv,
-    /// Tables for people.
-    Markdown,
-    /// The chart in pixels.
-    Png,
-    /// The chart in lines.
-    Svg,
-}
-
-impl ReportFormat {
-    pub const ALL: [Self; 5] = [Self::Json, Self::Csv, Self::Markdown, Self::Png, Self::Svg];
-
-    pub fn extension(self) -> &'static str {
-        match self {
-            Self::Json => "json",
-            Self::Csv => "csv",
-            Self::Markdown => "md",
-            Self::Png => "png",
-            Self::Svg => "svg",
-        }
-    }
-
-    /// The format that the extension of `path` names, in capitals or not.
-    pub fn of(path: &Path) -> Result<Self, FpsTableError> {
-        let extension = path.extension().unwrap_or_default();
-        let named = Self::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()));
-        named.ok_or_else(|| FpsTableError::UnknownFormat { path: path.to_owned() })
-    }
-
-    pub fn is_chart(self) -> bool {
-        matches!(self, Self::Png | Self::Svg)
     }
 }
 
@@ -184,7 +131,7 @@ impl FpsTable {
     }
 
     /// Writes what the name's extension asks for.
-    pub fn save(&self, path: &Path) -> Result<(), FpsTableError> {
+    pub fn save(&self, path: &Path) -> Result<(), OutputError> {
         match ReportFormat::of(path)? {
             ReportFormat::Json => write_text(path, &(self.to_json() + "\n")),
             ReportFormat::Csv => write_text(path, &csv::of(self)),
@@ -198,21 +145,6 @@ impl FpsTable {
     pub fn to_markdown(&self) -> String {
         markdown::of(self)
     }
-
-    /// Refuses at once what [`FpsTable::save`] would refuse after a long measuring. Leaves nothing behind.
-    pub fn check_output_path(path: &Path) -> Result<(), FpsTableError> {
-        ReportFormat::of(path)?;
-        WholeFile::create(path).map(drop).map_err(|error| FpsTableError::write(path, error))
-    }
-}
-
-fn write_text(path: &Path, text: &str) -> Result<(), FpsTableError> {
-    let write = || -> io::Result<()> {
-        let mut file = WholeFile::create(path)?;
-        file.as_file_mut().write_all(text.as_bytes())?;
-        file.finish()
-    };
-    write().map_err(|error| FpsTableError::write(path, error))
 }
 
 /// The fields that differ, each with what is in the file and what is here now.
@@ -234,17 +166,6 @@ fn differences<T: Serialize>(theirs: &T, ours: &T) -> Vec<String> {
 mod tests {
     use super::super::tests::example;
     use super::*;
-
-    #[test]
-    fn the_extension_names_the_format() {
-        for format in ReportFormat::ALL {
-            assert_eq!(ReportFormat::of(Path::new(&format!("a/b.{}", format.extension()))).unwrap(), format);
-        }
-        assert_eq!(ReportFormat::of(Path::new("b.JSON")).unwrap(), ReportFormat::Json);
-        for bad in ["a.txt", "a", ".md", ""] {
-            assert!(ReportFormat::of(Path::new(bad)).is_err_and(|error| error.is_input_error()), "{bad}");
-        }
-    }
 
     #[test]
     fn a_table_is_read_as_it_was_written_whole_or_not() {

@@ -1,12 +1,12 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use super::{Cell, Kernel, Plan};
-use crate::frame::Frame;
 use crate::gpu::Device;
+use crate::measure::{FrameTime, TimedTracer};
 use crate::scene::{Scene, SolidKind, gallery};
-use crate::tracer::{Settings, Tracer, TracerError};
+use crate::tracer::{Settings, TracerError};
 
 /// Where the frames of a table are drawn.
 pub trait Stage {
@@ -21,18 +21,10 @@ pub trait Stage {
     ) -> Result<FrameTime, TracerError>;
 }
 
-/// What a frame took.
-#[derive(Debug, Clone, Copy)]
-pub struct FrameTime {
-    /// Of the tracing alone; `None` where the device has no timestamps.
-    pub gpu_time_ns: Option<u64>,
-    pub wall_time: Duration,
-}
-
 /// Frames that go to the host's memory, and nothing is shown.
 pub struct OffScreen {
     device: Arc<Device>,
-    tracers: Vec<(Kernel, Tracer, Frame)>,
+    tracers: Vec<(Kernel, TimedTracer)>,
 }
 
 impl OffScreen {
@@ -49,9 +41,7 @@ impl Stage for OffScreen {
                 max_depth: Some(plan.generations),
                 ..Settings::new(plan.width, plan.height)
             };
-            let tracer = Tracer::new(&self.device, scene, &settings)?;
-            let frame = tracer.frame()?;
-            Ok((kernel, tracer, frame))
+            Ok((kernel, TimedTracer::new(&self.device, scene, &settings)?))
         };
         // The last scene's pictures make room before.
         self.tracers.clear();
@@ -65,11 +55,9 @@ impl Stage for OffScreen {
         keep_going: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<FrameTime, TracerError> {
         let found = self.tracers.iter_mut().find(|(known, ..)| *known == kernel);
-        let (_, tracer, frame) =
+        let (_, tracer) =
             found.ok_or_else(|| TracerError::Refused(format!("no scene for the {} kernel", kernel.name())))?;
-        let start = Instant::now();
-        let gpu_time_ns = tracer.render(frame, &mut |_| keep_going())?;
-        Ok(FrameTime { gpu_time_ns, wall_time: start.elapsed() })
+        tracer.draw(keep_going)
     }
 }
 

@@ -11,20 +11,17 @@ mod measuring;
 mod published;
 mod speeds;
 
-use std::time::Duration;
-
 use serde::{Deserialize, Serialize};
 
 pub use agreement::{Agreement, Bend, Ratio};
 pub use figures::{Figures, figures};
-pub use file::{FpsTableError, ReportFormat};
-pub use measuring::{FrameTime, OffScreen, Stage, measure};
+pub use file::FpsTableError;
+pub use measuring::{OffScreen, Stage, measure};
 pub use published::{CLAIMED_OF_SPHERES, CLAIMED_ORDER, published};
 pub use speeds::Speeds;
 
-use super::Summary;
+use super::{Budget, Clock, Machine, Summary};
 use crate::frame::Frame;
-use crate::gpu::DeviceDescription;
 use crate::scene::{DEPTH_LIMIT, SolidKind};
 use crate::tracer::{self, Precision};
 
@@ -54,29 +51,6 @@ impl Kernel {
             Self::Course => tracer::Kernel::Course,
             Self::Whitted => tracer::Kernel::Whitted(Precision::F32),
         }
-    }
-}
-
-/// What measured.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Machine {
-    pub device: String,
-    /// Name and version.
-    pub driver: String,
-    /// This program, its version and, where it was built in a clone, the commit that it was built on: edits since are
-    /// not told.
-    pub program: String,
-    /// How frames were shown in a window, by Vulkan's word, such as `mailbox`; `None` where none was.
-    pub present_mode: Option<String>,
-}
-
-impl Machine {
-    /// This program on a device, nothing shown.
-    pub fn of(device: &DeviceDescription) -> Self {
-        let version = concat!("zerkalo ", env!("CARGO_PKG_VERSION"));
-        let program = option_env!("ZERKALO_COMMIT")
-            .map_or(version.to_owned(), |commit| format!("{version} (on commit {commit})"));
-        Self { device: device.name.clone(), driver: device.driver.clone(), program, present_mode: None }
     }
 }
 
@@ -142,50 +116,6 @@ impl Plan {
         }
         Ok(())
     }
-}
-
-/// When a kernel has been measured enough in a cell: after its time or after its frames, whichever is first, but never
-/// after fewer frames than [`Budget::MIN_FRAMES`].
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Budget {
-    /// Wall time of the kernel's frames, milliseconds.
-    pub time_ms: u64,
-    pub frames: usize,
-    /// Frames are not enough before so much time, milliseconds: a fast device raises its clock under load only.
-    pub least_ms: u64,
-}
-
-impl Budget {
-    /// One frame has no spread.
-    pub const MIN_FRAMES: usize = 2;
-    /// Figures in minutes on a slow device, in half a minute on a fast one.
-    pub const QUICK: Self = Self { time_ms: 3000, frames: 5, least_ms: 250 };
-
-    /// As long as told; a device that is through with ten thousand frames before has shown what it can, and its file
-    /// shall be of a size to be opened.
-    pub fn lasting(time: Duration) -> Self {
-        Self { time_ms: time.as_millis() as u64, frames: 10_000, least_ms: 0 }
-    }
-
-    /// How much of the measuring is done, 1 or more where all is.
-    fn share_done(self, frames: usize, time: Duration) -> f64 {
-        let of_frames = |all: usize| frames as f64 / all as f64;
-        // Nothing of nothing is all of it.
-        let of_time = |all_ms: u64| if all_ms == 0 { 1.0 } else { time.as_secs_f64() * 1e3 / all_ms as f64 };
-        let by_frames = of_frames(self.frames).min(of_time(self.least_ms));
-        by_frames.max(of_time(self.time_ms)).min(of_frames(Self::MIN_FRAMES))
-    }
-}
-
-/// Which of its two times a frame is judged by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Clock {
-    /// Of the tracing alone, by the device's timestamps.
-    Gpu,
-    /// From the call to the picture in the host's memory: submission, tracing and the copy. In a window, from one frame
-    /// given to the window system to the next.
-    Wall,
 }
 
 /// What one kernel makes of one number of one kind of solids.
@@ -330,17 +260,6 @@ mod tests {
         for kernel in Kernel::ALL {
             assert_eq!(serde_json::to_value(kernel).unwrap(), kernel.name());
         }
-    }
-
-    #[test]
-    fn a_cell_is_done_after_its_frames_or_its_time_but_not_before_two_frames() {
-        let done = |budget: Budget, frames, ms| budget.share_done(frames, Duration::from_millis(ms)) >= 1.0;
-        let quick = Budget::QUICK;
-        assert!(!done(quick, 1, 60_000) && done(quick, 2, 60_000));
-        assert!(!done(quick, 4, 2999) && done(quick, 4, 3000));
-        assert!(!done(quick, 5, 249) && done(quick, 5, 250) && !done(quick, 100, 249));
-        let full = Budget::lasting(Duration::from_secs(30));
-        assert!(!done(full, 500, 29_999) && done(full, 500, 30_000) && done(full, 10_000, 1000));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{Drawn, FONT};
+use crate::measure::output::drawing::{Drawn, FONT};
 use crate::scene::SolidKind;
 
 /// Colours of Okabe and Ito's palette (Color Universal Design, 2008), which the colour-blind tell apart; dashes and

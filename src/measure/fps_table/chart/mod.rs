@@ -6,11 +6,11 @@ mod panels;
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
-use plotters::style::register_font;
-use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::{FpsTable, FpsTableError};
+use super::FpsTable;
 use crate::frame::Frame;
+use crate::measure::output::OutputError;
+use crate::measure::output::drawing::{self, Chart, Drawn, FONT, draw_text};
 use marks::{draw_legend, draw_line, draw_marker, draw_quartiles, look};
 use panels::{Panel, Row, rows};
 
@@ -20,70 +20,39 @@ const PANEL_TITLE_HEIGHT: i32 = 30;
 const HEAD_HEIGHT: i32 = 68;
 const LEGEND_HEIGHT: i32 = 44;
 const MARGIN: i32 = 16;
-/// The generic name is what an SVG's viewer finds a font by; pixels are drawn with the one registered.
-const FONT: &str = "sans-serif";
-/// The bitmap backend draws thick lines with jagged edges: a picture of so many times the side is averaged.
-const SUPERSAMPLING: i32 = 3;
-
-type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
 /// The chart as a picture.
-pub fn png(table: &FpsTable) -> Result<Frame, FpsTableError> {
-    let [width, height] = size(table);
-    let [large_width, large_height] = [width, height].map(|side| side * SUPERSAMPLING);
-    let mut bytes = vec![0; (large_width * large_height) as usize * 3];
-    {
-        let size = (large_width as u32, large_height as u32);
-        let area = BitMapBackend::with_buffer(&mut bytes, size).into_drawing_area();
-        draw(&area, table, SUPERSAMPLING).map_err(drawing_error)?;
-    }
-    let mut frame = Frame::new(width as u32, height as u32)?;
-    let (row, block) = (large_width as usize, SUPERSAMPLING as usize);
-    for (index, pixel) in frame.pixels_mut().iter_mut().enumerate() {
-        let corner = (index / width as usize * row + index % width as usize) * block;
-        let samples = (0..block).flat_map(|y| (0..block).map(move |x| corner + y * row + x));
-        let sum = |channel| samples.clone().map(|sample| f32::from(bytes[sample * 3 + channel])).sum::<f32>();
-        *pixel = [0, 1, 2].map(|channel| sum(channel) / (255 * block * block) as f32);
-    }
-    Ok(frame)
+pub fn png(table: &FpsTable) -> Result<Frame, OutputError> {
+    drawing::png(&TableChart(table))
 }
 
 /// The chart as an SVG document.
-pub fn svg(table: &FpsTable) -> Result<String, FpsTableError> {
-    let [width, height] = size(table);
-    let mut text = String::new();
-    {
-        let area = SVGBackend::with_string(&mut text, (width as u32, height as u32)).into_drawing_area();
-        draw(&area, table, 1).map_err(drawing_error)?;
+pub fn svg(table: &FpsTable) -> Result<String, OutputError> {
+    drawing::svg(&TableChart(table))
+}
+
+struct TableChart<'a>(&'a FpsTable);
+
+impl Chart for TableChart<'_> {
+    /// Two rows of panels.
+    fn size(&self) -> [i32; 2] {
+        let panels = 1 + self.0.plan.kernels.len() as i32;
+        [PANEL[0] * panels + 2 * MARGIN, HEAD_HEIGHT + 2 * PANEL[1] + LEGEND_HEIGHT]
     }
-    Ok(text)
-}
 
-fn drawing_error<E: std::error::Error + Send + Sync>(error: DrawingAreaErrorKind<E>) -> FpsTableError {
-    FpsTableError::Chart { reason: error.to_string() }
-}
-
-/// Two rows of panels.
-fn size(table: &FpsTable) -> [i32; 2] {
-    let panels = 1 + table.plan.kernels.len() as i32;
-    [PANEL[0] * panels + 2 * MARGIN, HEAD_HEIGHT + 2 * PANEL[1] + LEGEND_HEIGHT]
-}
-
-/// `scale`: pixels of the backend to one of the chart.
-fn draw<DB: DrawingBackend>(area: &DrawingArea<DB, Shift>, table: &FpsTable, scale: i32) -> Drawn<DB> {
-    // A second registration of the same font changes nothing.
-    let _ = register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT);
-    let [width, height] = size(table);
-    area.fill(&WHITE)?;
-    let middle = width / 2 * scale;
-    let title = "Frames a second by number and kind of solids · Кадры в секунду от числа и вида тел";
-    draw_text(area, title, (middle, 22 * scale), 24 * scale)?;
-    draw_text(area, &subtitle(table), (middle, 50 * scale), 15 * scale)?;
-    for (place, row) in rows(table).iter().enumerate() {
-        draw_row(area, row, HEAD_HEIGHT + place as i32 * PANEL[1], scale)?;
+    fn draw<DB: DrawingBackend>(&self, area: &DrawingArea<DB, Shift>, scale: i32) -> Drawn<DB> {
+        let [width, height] = self.size();
+        area.fill(&WHITE)?;
+        let middle = width / 2 * scale;
+        let title = "Frames a second by number and kind of solids · Кадры в секунду от числа и вида тел";
+        draw_text(area, title, (middle, 22 * scale), 24 * scale)?;
+        draw_text(area, &subtitle(self.0), (middle, 50 * scale), 15 * scale)?;
+        for (place, row) in rows(self.0).iter().enumerate() {
+            draw_row(area, row, HEAD_HEIGHT + place as i32 * PANEL[1], scale)?;
+        }
+        draw_legend(area, (width / 2, height - LEGEND_HEIGHT / 2), scale)?;
+        area.present()
     }
-    draw_legend(area, (width / 2, height - LEGEND_HEIGHT / 2), scale)?;
-    area.present()
 }
 
 /// What measured.
@@ -94,16 +63,6 @@ fn subtitle(table: &FpsTable) -> String {
         "{} ({}) · {}x{}, {} generations · {}{watched}",
         machine.device, machine.driver, plan.width, plan.height, plan.generations, machine.program
     )
-}
-
-fn draw_text<DB: DrawingBackend>(
-    area: &DrawingArea<DB, Shift>,
-    text: &str,
-    middle: (i32, i32),
-    size: i32,
-) -> Drawn<DB> {
-    let style = TextStyle::from((FONT, size).into_font()).pos(Pos::new(HPos::Center, VPos::Center));
-    area.draw(&Text::new(text.to_owned(), middle, style))
 }
 
 /// `top`: in pixels of the chart.
@@ -179,7 +138,7 @@ mod tests {
         let mut table = example(&[10, 50, 100], &Kernel::ALL);
         for _ in 0..2 {
             let frame = png(&table).unwrap();
-            assert_eq!([frame.width(), frame.height()].map(|side| side as i32), size(&table));
+            assert_eq!([frame.width(), frame.height()].map(|side| side as i32), TableChart(&table).size());
             let has = |color: RGBColor| {
                 let wanted = [color.0, color.1, color.2].map(|channel| f32::from(channel) / 255.0);
                 // The averaging rounds far below the half of an 8-bit step.

@@ -1,0 +1,28 @@
+//! What measured.
+
+use serde::{Deserialize, Serialize};
+
+use crate::gpu::DeviceDescription;
+
+/// What measured.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Machine {
+    pub device: String,
+    /// Name and version.
+    pub driver: String,
+    /// This program, its version and, where it was built in a clone, the commit that it was built on: edits since are
+    /// not told.
+    pub program: String,
+    /// How frames were shown in a window, by Vulkan's word, such as `mailbox`; `None` where none was.
+    pub present_mode: Option<String>,
+}
+
+impl Machine {
+    /// This program on a device, nothing shown.
+    pub fn of(device: &DeviceDescription) -> Self {
+        let version = concat!("zerkalo ", env!("CARGO_PKG_VERSION"));
+        let program = option_env!("ZERKALO_COMMIT")
+            .map_or(version.to_owned(), |commit| format!("{version} (on commit {commit})"));
+        Self { device: device.name.clone(), driver: device.driver.clone(), program, present_mode: None }
+    }
+}

@@ -1,0 +1,113 @@
+//! What tables of measurements are written as.
+
+pub mod csv;
+pub mod drawing;
+pub mod markdown;
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::frame::FrameError;
+use crate::whole_file::WholeFile;
+
+/// Why a table could not be written; each message is one line.
+#[derive(Debug, Error)]
+pub enum OutputError {
+    #[error("unknown report format: {path:?} must end in .json, .csv, .md, .png or .svg, or be a folder")]
+    UnknownFormat { path: PathBuf },
+    #[error("could not write {path:?}: {reason}")]
+    Write { path: PathBuf, reason: String },
+    #[error("could not draw the chart: {reason}")]
+    Chart { reason: String },
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+}
+
+impl OutputError {
+    /// Whether what the caller named is at fault, not the machine.
+    pub fn is_input_error(&self) -> bool {
+        match self {
+            Self::UnknownFormat { .. } => true,
+            Self::Write { .. } | Self::Chart { .. } => false,
+            Self::Frame(error) => error.is_input_error(),
+        }
+    }
+
+    fn write(path: &Path, reason: impl ToString) -> Self {
+        Self::Write { path: path.to_owned(), reason: reason.to_string() }
+    }
+}
+
+/// What a file holds of a table; its name's extension decides.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ReportFormat {
+    /// Everything, every sample too; the one format that is read.
+    Json,
+    /// A line a cell.
+    Csv,
+    /// Tables for people.
+    Markdown,
+    /// The chart in pixels.
+    Png,
+    /// The chart in lines.
+    Svg,
+}
+
+impl ReportFormat {
+    pub const ALL: [Self; 5] = [Self::Json, Self::Csv, Self::Markdown, Self::Png, Self::Svg];
+
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Json => "json",
+            Self::Csv => "csv",
+            Self::Markdown => "md",
+            Self::Png => "png",
+            Self::Svg => "svg",
+        }
+    }
+
+    /// The format that the extension of `path` names, in capitals or not.
+    pub fn of(path: &Path) -> Result<Self, OutputError> {
+        let extension = path.extension().unwrap_or_default();
+        let named = Self::ALL.into_iter().find(|format| extension.eq_ignore_ascii_case(format.extension()));
+        named.ok_or_else(|| OutputError::UnknownFormat { path: path.to_owned() })
+    }
+
+    pub fn is_chart(self) -> bool {
+        matches!(self, Self::Png | Self::Svg)
+    }
+}
+
+/// Writes a file whole or not at all.
+pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
+    let write = || -> io::Result<()> {
+        let mut file = WholeFile::create(path)?;
+        file.as_file_mut().write_all(text.as_bytes())?;
+        file.finish()
+    };
+    write().map_err(|error| OutputError::write(path, error))
+}
+
+/// Refuses at once what could not be written after a long measuring. Leaves nothing behind.
+pub fn check_output_path(path: &Path) -> Result<(), OutputError> {
+    ReportFormat::of(path)?;
+    WholeFile::create(path).map(drop).map_err(|error| OutputError::write(path, error))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_extension_names_the_format() {
+        for format in ReportFormat::ALL {
+            assert_eq!(ReportFormat::of(Path::new(&format!("a/b.{}", format.extension()))).unwrap(), format);
+        }
+        assert_eq!(ReportFormat::of(Path::new("b.JSON")).unwrap(), ReportFormat::Json);
+        for bad in ["a.txt", "a", ".md", ""] {
+            assert!(ReportFormat::of(Path::new(bad)).is_err_and(|error| error.is_input_error()), "{bad}");
+        }
+    }
+}
