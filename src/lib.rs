@@ -1,9 +1,9 @@
 //! A low-level Vulkan ray tracer for simple solids with adjustable reflection.
 //!
 //! The modules stand in the order the data takes: a [`scene`] is read or edited, a [`plan`] tells what it requires, a
-//! [`tracer`] draws it on a device that [`gpu`] opened, or the [`reference`](mod@reference) on the CPU, the picture is a
-//! [`frame`], which is saved and [measured](measure); [`validation`] has all of it drawn under Vulkan's validation layers;
-//! each [`command`] goes that way or a part of it.
+//! [`tracer`] draws it, as a [`setting`] says, on a device that [`gpu`] opened, or the [`reference`](mod@reference) on the
+//! CPU, the picture is a [`frame`], which is saved and [measured](measure); [`validation`] has all of it drawn under
+//! Vulkan's validation layers; each [`command`] goes that way or a part of it.
 
 pub mod scene;
 
@@ -14,6 +14,8 @@ pub mod reference;
 pub mod gpu;
 
 pub mod tracer;
+
+pub mod setting;
 
 pub mod frame;
 

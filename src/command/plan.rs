@@ -6,8 +6,9 @@ use serde::Serialize;
 
 use super::render::{Precision, parse_depth, parse_size};
 use super::{DeviceArgs, print_json, print_line, scene_named};
-use crate::gpu::{self, DeviceDescription, GpuError, Texel};
+use crate::gpu::{self, DeviceDescription, GpuError};
 use crate::plan::{Bounds, Cuts, Limits, Line, Plan, Wishes};
+use crate::tracer::limits_of;
 
 /// Tell what will run for a scene, what is left out and why, and what that saves
 #[derive(Debug, Clone, Args)]
@@ -45,12 +46,6 @@ pub(super) fn parse_error(text: &str) -> Result<f64, String> {
     };
     let value = value.filter(|value| value.is_finite() && *value >= 0.0);
     value.ok_or_else(|| "it must be a number, 0 or greater, such as 0.002 or 1/510".to_owned())
-}
-
-/// What a plan needs to know of a device.
-pub(super) fn limits_of(device: &DeviceDescription) -> Limits {
-    let &DeviceDescription { float64, max_texels, max_image_side, .. } = device;
-    Limits { float64, max_array_bytes: max_texels * Texel::BYTES, max_image_side }
 }
 
 /// What `--json` prints.

@@ -10,16 +10,16 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::interrupt::Listener;
-use super::plan::{limits_of, parse_error};
+use super::plan::parse_error;
 use super::{DeviceArgs, print_json, refuse_messages, scene_named};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Message, Validation};
 use crate::measure::median;
-use crate::plan::{Plan, Wishes};
 use crate::reference::{self, RenderError};
 use crate::scene::{DEPTH_LIMIT, Scene};
+use crate::setting::{self, Contradiction, Drawing, Setting};
 use crate::tracer::sampling::{MAX_SAMPLES, Sampling};
-use crate::tracer::{self, Settings, Tracer, TracerError};
+use crate::tracer::{self, Tracer, TracerError, limits_of};
 
 /// Which of the program's tracers draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
@@ -66,7 +66,8 @@ pub struct RenderArgs {
     /// Generations of a ray, in place of the scene's
     #[arg(long, value_name = "N", value_parser = parse_depth())]
     pub max_depth: Option<u32>,
-    /// Largest change of any linear channel by what the whitted kernel leaves out, such as 0.002 or 1/510; 0 is exact
+    /// Largest change of any linear channel by what the whitted or the plain kernel leaves out, such as 0.002 or 1/510;
+    /// 0 is exact
     #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error)]
     pub error: f64,
     /// Anti-aliasing by the whitted kernel: a pixel is the mean of so many rays through fixed places in it, 1 to 64
@@ -75,6 +76,9 @@ pub struct RenderArgs {
     /// Size of the picture that the whitted kernel traces against that of OUT, to which it is brought bilinearly: 1/4 to 1
     #[arg(long, value_name = "S", default_value = "1", value_parser = parse_scale)]
     pub scale: f64,
+    /// Draw as a file of `zerkalo trade --save-settings` says
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["kernel", "precision", "max_depth", "error", "samples", "scale"])]
+    pub settings: Option<PathBuf>,
     #[command(flatten)]
     pub device: DeviceArgs,
     /// Render once to warm up, then N times, and report the median GPU time
@@ -86,6 +90,16 @@ pub struct RenderArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
+}
+
+impl Kernel {
+    fn of(kernel: setting::Kernel) -> Self {
+        match kernel {
+            setting::Kernel::Course => Self::Course,
+            setting::Kernel::Plain => Self::Plain,
+            setting::Kernel::Whitted => Self::Whitted,
+        }
+    }
 }
 
 impl Precision {
@@ -158,7 +172,9 @@ struct Report<'a> {
 /// A picture, what drew it, and what is to be told of that.
 struct Rendered {
     frame: Frame,
+    kernel: Kernel,
     precision: Precision,
+    sampling: Sampling,
     error_bound: f64,
     device: String,
     driver: String,
@@ -170,43 +186,53 @@ struct Rendered {
 pub fn run(args: &RenderArgs) -> Result<()> {
     Frame::check_output_path(&args.output)?;
     let scene = scene_named(&args.scene)?;
-    check_precision(args)?;
-    if args.error > 0.0 && args.kernel != Kernel::Whitted {
-        return Err(
-            TracerError::Refused("only the whitted kernel leaves anything out: --error is for it".to_owned()).into()
-        );
-    }
-    for (option, is_given) in [("--samples", args.samples > 1), ("--scale", args.scale < 1.0)] {
-        if is_given && args.kernel != Kernel::Whitted {
-            return Err(TracerError::Refused(format!("{option} is for the whitted kernel only")).into());
-        }
-    }
-    let rendered = match args.kernel {
-        Kernel::Course | Kernel::Plain | Kernel::Whitted => on_device(args, &scene)?,
-        Kernel::Reference => on_cpu(args, scene)?,
+    let rendered = match setting(args)? {
+        Some(setting) => on_device(args, &scene, &setting)?,
+        None => on_cpu(args, scene)?,
     };
     rendered.frame.save(&args.output)?;
     report(args, &rendered)?;
     refuse_messages(&rendered.messages)
 }
 
-/// The other kernels know only one.
-fn check_precision(args: &RenderArgs) -> Result<(), TracerError> {
-    match (args.kernel, args.precision) {
-        (Kernel::Course, Some(Precision::F64)) => {
-            Err(TracerError::Refused("the course kernel calculates in f32 only; --kernel whitted has f64".to_owned()))
-        }
-        (Kernel::Plain, Some(Precision::F64)) => {
-            Err(TracerError::Refused("the plain kernel calculates in f32 only; --kernel whitted has f64".to_owned()))
+/// For a kernel on a device; `None` for the reference.
+fn setting(args: &RenderArgs) -> Result<Option<Setting>> {
+    if let Some(path) = &args.settings {
+        return Ok(Some(Setting::load(path)?));
+    }
+    let refuse = |reason: &str| Err(TracerError::Refused(reason.to_owned()).into());
+    let kernel = match (args.kernel, args.precision) {
+        (Kernel::Reference, _) if args.error > 0.0 => {
+            return refuse("the reference leaves out nothing: --error is for the plain and the whitted kernel");
         }
         (Kernel::Reference, Some(Precision::F32)) => {
-            Err(TracerError::Refused("the reference calculates in f64 only; --kernel whitted has f32".to_owned()))
+            return refuse("the reference calculates in f64 only; --kernel whitted has f32");
         }
-        _ => Ok(()),
-    }
+        (Kernel::Reference, _) if args.samples > 1 || args.scale < 1.0 => {
+            return refuse("the reference takes one sample a pixel: --samples and --scale are for the whitted kernel");
+        }
+        (Kernel::Reference, _) => return Ok(None),
+        (Kernel::Course, _) => setting::Kernel::Course,
+        (Kernel::Plain, _) => setting::Kernel::Plain,
+        (Kernel::Whitted, _) => setting::Kernel::Whitted,
+    };
+    let setting = Setting {
+        kernel,
+        precision: args.precision.map(Precision::in_library),
+        error: args.error,
+        max_depth: args.max_depth,
+        samples: args.samples,
+        scale: args.scale,
+        ..Setting::default()
+    };
+    setting.check().map_err(|Contradiction { field, what }| {
+        let option = field.replace('_', "-");
+        TracerError::Refused(format!("--{option}: {what}"))
+    })?;
+    Ok(Some(setting))
 }
 
-fn on_device(args: &RenderArgs, scene: &Scene) -> Result<Rendered> {
+fn on_device(args: &RenderArgs, scene: &Scene, setting: &Setting) -> Result<Rendered> {
     let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
     // From before the driver's threads compile anything until they are gone: a program that ends in their midst may crash.
     let listener = Listener::start();
@@ -214,7 +240,8 @@ fn on_device(args: &RenderArgs, scene: &Scene) -> Result<Rendered> {
     let DeviceDescription { name, driver, .. } = device.description().clone();
     let messages = device.messages().clone();
 
-    let (settings, error_bound) = settings(args, scene, device.description())?;
+    let (width, height) = args.size;
+    let Drawing { settings, error_bound } = setting.drawing(scene, &limits_of(device.description()), width, height)?;
     let mut tracer = Tracer::new(&device, scene, &settings)?;
     let (frame, samples_ns) = render(&mut tracer, args.repeat, &listener)?;
     // Destroyed before the messages are counted: the layers check that too.
@@ -223,7 +250,10 @@ fn on_device(args: &RenderArgs, scene: &Scene) -> Result<Rendered> {
         return Err(TracerError::Stopped.into());
     }
     let precision = Precision::of_library(settings.kernel.precision());
-    Ok(Rendered { frame, precision, error_bound, device: name, driver, samples_ns, messages: messages.to_vec() })
+    let kernel = Kernel::of(setting.kernel);
+    let sampling = Sampling { samples: settings.samples, scale: settings.scale };
+    let messages = messages.to_vec();
+    Ok(Rendered { frame, kernel, precision, sampling, error_bound, device: name, driver, samples_ns, messages })
 }
 
 fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
@@ -250,29 +280,14 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
     let driver = concat!("zerkalo ", env!("CARGO_PKG_VERSION"), ", f64").to_owned();
     Ok(Rendered {
         frame,
+        kernel: Kernel::Reference,
         precision: Precision::F64,
+        sampling: Sampling::PLAIN,
         error_bound: 0.0,
         device: "CPU".to_owned(),
         driver,
         samples_ns: Vec::new(),
         messages: Vec::new(),
-    })
-}
-
-/// With the bound on the change by what is left out.
-fn settings(args: &RenderArgs, scene: &Scene, device: &DeviceDescription) -> Result<(Settings, f64)> {
-    let (width, height) = args.size;
-    let settings = Settings { max_depth: args.max_depth, ..Settings::new(width, height) };
-    Ok(match args.kernel {
-        Kernel::Course | Kernel::Reference => (settings, 0.0),
-        Kernel::Plain => (Settings { kernel: tracer::Kernel::Plain, ..settings }, 0.0),
-        Kernel::Whitted => {
-            let precision = args.precision.map(Precision::in_library);
-            let wishes = Wishes { precision, max_depth: args.max_depth, error: args.error, width, height };
-            let plan = Plan::for_scene(scene, &wishes, &limits_of(device))?;
-            let &RenderArgs { samples, scale, .. } = args;
-            (Settings { samples, scale, ..Settings::planned(&plan, width, height) }, plan.bounds.total())
-        }
     })
 }
 
@@ -307,18 +322,19 @@ fn progress_bar(pixels: u64) -> ProgressBar {
 }
 
 fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
-    let Rendered { precision, error_bound, device, driver, samples_ns, messages, .. } = rendered;
+    let Rendered { kernel, precision, sampling, error_bound, device, driver, samples_ns, messages, .. } = rendered;
+    let Sampling { samples, scale } = *sampling;
     let gpu_time_ns = median(samples_ns);
     let (width, height) = args.size;
     if args.json {
         return print_json(&Report {
             width,
             height,
-            kernel: args.kernel,
+            kernel: *kernel,
             precision: *precision,
             error_bound: *error_bound,
-            samples_per_pixel: args.samples,
-            scale: args.scale,
+            samples_per_pixel: samples,
+            scale,
             device,
             driver,
             gpu_time_ns,
@@ -334,8 +350,8 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
     };
     let output = args.output.display().to_string();
     let bound = if *error_bound > 0.0 { format!(", at most {error_bound:.3e} off") } else { String::new() };
-    let samples = if args.samples > 1 { format!(", {} samples a pixel", args.samples) } else { String::new() };
-    let scale = if args.scale < 1.0 { format!(", traced at {:.4} of that", args.scale) } else { String::new() };
+    let samples = if samples > 1 { format!(", {samples} samples a pixel") } else { String::new() };
+    let scale = if scale < 1.0 { format!(", traced at {scale:.4} of that") } else { String::new() };
     let picture = format!("{width}x{height}{scale}{samples}");
     super::print_line(&format!("wrote {} ({picture}, {device}, {time}{of}{bound})", output.escape_debug()))
 }

@@ -10,10 +10,9 @@ use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::interrupt::Listener;
-use super::plan::limits_of;
 use super::{DeviceArgs, ValidationFailed, print_json, print_line};
 use crate::gpu::{self, Allowance, Check, Device, DeviceDescription, Layer, Messages, Validation};
-use crate::tracer::TracerError;
+use crate::tracer::{TracerError, limits_of};
 use crate::validation::{Findings, Group, PICTURE, Run, Scope, Switch, runs, survey, switches};
 use crate::viewer::{Display, PictureWindow};
 

@@ -1,13 +1,15 @@
 //! What a kernel calculates in, and what rounding then moves.
 
 use glam::DVec3;
+use serde::{Deserialize, Serialize};
 
 use super::solids::{outside_by, size};
 use super::{Decision, Limits, PlanError, Reason, Wishes};
 use crate::scene::{Camera, Projection, Scene, Solid};
 
 /// What a kernel calculates in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Precision {
     #[default]
     F32,

@@ -36,8 +36,10 @@ pub use whitted::{Requirements, check_precision, scene_bindings, upload_scene};
 pub use whitted_records::{SolidRecords, WhittedFrame, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};
-use crate::gpu::{BindingSet, Commands, Device, GpuError, Recorder, Timer, Use};
-use crate::plan::{Cuts, Plan};
+use crate::gpu::{
+    BindingSet, Commands, Device, DeviceDescription, GpuError, Recorder, Texel, Timer, Use,
+};
+use crate::plan::{Cuts, Limits, Plan};
 use crate::scene::Scene;
 use chunks::Part;
 use sampling::Sampling;
@@ -74,6 +76,12 @@ impl TracerError {
             Self::Frame(error) => error.is_input_error(),
         }
     }
+}
+
+/// What a plan needs to know of a device.
+pub fn limits_of(device: &DeviceDescription) -> Limits {
+    let &DeviceDescription { float64, max_texels, max_image_side, .. } = device;
+    Limits { float64, max_array_bytes: max_texels * Texel::BYTES, max_image_side }
 }
 
 /// Which kernel draws.

@@ -1,0 +1,251 @@
+//! Everything that trades time for accuracy, in a user's words: one setting for any scene, kept in a file.
+
+mod file;
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+pub use file::SettingError;
+
+use crate::plan::{Limits, Plan, PlanError, Precision, Structure, Wishes};
+use crate::scene::{DEPTH_LIMIT, Scene};
+use crate::tracer::sampling::Sampling;
+use crate::tracer::{self, Settings};
+
+/// Which of the device's kernels draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kernel {
+    /// The course work's.
+    Course,
+    /// The accurate model without exact sums: textbook quadratics in `f32`.
+    Plain,
+    /// The accurate model.
+    #[default]
+    Whitted,
+}
+
+impl Kernel {
+    pub const ALL: [Self; 3] = [Self::Course, Self::Plain, Self::Whitted];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Course => "course",
+            Self::Plain => "plain",
+            Self::Whitted => "whitted",
+        }
+    }
+}
+
+/// How a picture is drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct Setting {
+    pub kernel: Kernel,
+    /// `None`: as the plan chooses. Only the whitted kernel has a choice.
+    pub precision: Option<Precision>,
+    /// Largest change of any linear channel by what the plan may leave out; 0: it leaves out nothing.
+    pub error: f64,
+    /// In place of the scene's.
+    pub max_depth: Option<u32>,
+    /// Whether rays find solids by boxes around them, or look at each.
+    pub boxes: bool,
+    /// Of a pixel; of the whitted kernel, as the scale. See [`sampling`](crate::tracer::sampling).
+    pub samples: u32,
+    /// Size of the traced picture against the one asked for.
+    pub scale: f64,
+}
+
+impl Default for Setting {
+    /// The accurate kernel, leaving out nothing.
+    fn default() -> Self {
+        Self { kernel: Kernel::Whitted, precision: None, error: 0.0, max_depth: None, boxes: true, samples: 1, scale: 1.0 }
+    }
+}
+
+/// A setting for one scene on one device.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawing {
+    pub settings: Settings,
+    /// No linear channel is changed more by what was left out for [`Setting::error`]: proven, rounding not in it.
+    pub error_bound: f64,
+}
+
+/// A field that does not go with the others, or has an impossible value.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Contradiction {
+    pub field: &'static str,
+    pub what: String,
+}
+
+impl Setting {
+    /// What it comes to for a scene that [is valid](Scene::validate).
+    ///
+    /// # Errors
+    /// The setting is impossible, or not for this device.
+    pub fn drawing(&self, scene: &Scene, limits: &Limits, width: u32, height: u32) -> Result<Drawing, PlanError> {
+        let &Self { kernel, error, max_depth, boxes, samples, scale, .. } = self;
+        let precision = match kernel {
+            Kernel::Course => {
+                let settings = Settings { max_depth, ..Settings::new(width, height) };
+                return Ok(Drawing { settings, error_bound: 0.0 });
+            }
+            Kernel::Plain => Some(Precision::F32),
+            Kernel::Whitted => self.precision,
+        };
+        let plan = Plan::for_scene(scene, &Wishes { precision, max_depth, error, width, height }, limits)?;
+        let has_boxes = plan.structures.choice.iter().any(|structure| *structure != Structure::None);
+        let without_boxes = has_boxes && !boxes;
+        let mut settings = Settings { without_boxes, samples, scale, ..Settings::planned(&plan, width, height) };
+        if kernel == Kernel::Plain {
+            settings.kernel = tracer::Kernel::Plain;
+        }
+        Ok(Drawing { settings, error_bound: plan.bounds.total() })
+    }
+
+    /// # Errors
+    /// What no kernel can do.
+    pub fn check(&self) -> Result<(), Contradiction> {
+        let &Self { kernel, precision, error, max_depth, boxes, samples, scale } = self;
+        let name = kernel.name();
+        let refuse = |field, what: String| Err(Contradiction { field, what });
+        if !(error.is_finite() && error >= 0.0) {
+            return refuse("error", format!("error = {error}: it must be a number, 0 or greater"));
+        }
+        if let Some(depth) = max_depth.filter(|depth| !(1..=DEPTH_LIMIT).contains(depth)) {
+            return refuse("max_depth", format!("max_depth = {depth}: there must be 1 to {DEPTH_LIMIT} generations"));
+        }
+        if kernel != Kernel::Whitted && precision == Some(Precision::F64) {
+            return refuse(
+                "precision",
+                format!("the {name} kernel calculates in f32 only; the whitted kernel has f64"),
+            );
+        }
+        if kernel == Kernel::Course && error > 0.0 {
+            return refuse(
+                "error",
+                "the course kernel leaves out nothing: an error is for the plain and the whitted one".to_owned(),
+            );
+        }
+        if kernel == Kernel::Course && !boxes {
+            return refuse("boxes", "the course kernel has no boxes to go without".to_owned());
+        }
+        // One after the other, so that the field at fault is known.
+        let plain = Sampling::PLAIN;
+        for (field, sampling) in [("samples", Sampling { samples, ..plain }), ("scale", Sampling { scale, ..plain })] {
+            if let Err(error) = sampling.check() {
+                return refuse(field, error.to_string());
+            }
+            if kernel != Kernel::Whitted && sampling != plain {
+                return refuse(field, format!("{field} is for the whitted kernel, not the {name} one"));
+            }
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Setting {
+    /// What differs from an exact picture by default, in a few words.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let &Self { kernel, precision, error, max_depth, boxes, samples, scale } = self;
+        write!(f, "{}", kernel.name())?;
+        if let Some(precision) = precision.filter(|_| kernel == Kernel::Whitted) {
+            write!(f, " {}", precision.name())?;
+        }
+        if error > 0.0 {
+            write!(f, ", error {}", three_digits(error))?;
+        }
+        match max_depth {
+            Some(1) => write!(f, ", 1 generation")?,
+            Some(depth) => write!(f, ", {depth} generations")?,
+            None => {}
+        }
+        if samples > 1 {
+            write!(f, ", {samples} samples")?;
+        }
+        if scale < 1.0 {
+            write!(f, ", scale {}", three_digits(scale))?;
+        }
+        if boxes { Ok(()) } else { write!(f, ", no boxes") }
+    }
+}
+
+/// A number to three digits, without an exponent where that is short.
+pub fn three_digits(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let magnitude = value.abs().log10().floor() as i32;
+    if !(-4..6).contains(&magnitude) {
+        return format!("{value:.2e}");
+    }
+    let text = format!("{value:.*}", (2 - magnitude).max(0) as usize);
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::gallery;
+
+    fn drawing(setting: Setting) -> Drawing {
+        let scene = gallery::scene("corridor").unwrap();
+        let limits = Limits { float64: true, ..Limits::PROMISED };
+        setting.check().unwrap();
+        setting.drawing(&scene, &limits, 64, 28).unwrap()
+    }
+
+    #[test]
+    fn every_kernel_is_planned_as_far_as_it_goes() {
+        let exact = drawing(Setting::default());
+        assert_eq!(exact.settings.kernel, tracer::Kernel::Whitted(Precision::F32));
+        assert_eq!(exact.error_bound, 0.0);
+        for kernel in [Kernel::Plain, Kernel::Whitted] {
+            let cut = drawing(Setting { kernel, precision: Some(Precision::F32), error: 0.01, ..Setting::default() });
+            assert!(cut.error_bound > 0.0 && cut.error_bound <= 0.01);
+            assert_ne!(cut.settings.cuts, exact.settings.cuts);
+            assert_eq!(cut.settings.kernel == tracer::Kernel::Plain, kernel == Kernel::Plain);
+        }
+        let course = drawing(Setting { kernel: Kernel::Course, max_depth: Some(3), ..Setting::default() });
+        assert_eq!(course.settings, Settings { max_depth: Some(3), ..Settings::new(64, 28) });
+    }
+
+    #[test]
+    fn contradictions_name_their_field() {
+        let setting = Setting::default();
+        let course = Setting { kernel: Kernel::Course, ..setting };
+        for (setting, field) in [
+            (Setting { error: f64::NAN, ..setting }, "error"),
+            (Setting { error: -1.0, ..setting }, "error"),
+            (Setting { max_depth: Some(0), ..setting }, "max_depth"),
+            (Setting { kernel: Kernel::Plain, precision: Some(Precision::F64), ..setting }, "precision"),
+            (Setting { error: 0.1, ..course }, "error"),
+            (Setting { boxes: false, ..course }, "boxes"),
+            (Setting { samples: 0, ..setting }, "samples"),
+            (Setting { samples: 4, ..course }, "samples"),
+            (Setting { scale: 0.1, ..setting }, "scale"),
+            (Setting { kernel: Kernel::Plain, scale: 0.5, ..setting }, "scale"),
+        ] {
+            assert_eq!(setting.check().map_err(|contradiction| contradiction.field), Err(field), "{setting:?}");
+        }
+    }
+
+    #[test]
+    fn a_setting_is_told_by_what_it_does_otherwise() {
+        let f32 = Setting { precision: Some(Precision::F32), ..Setting::default() };
+        assert_eq!(f32.to_string(), "whitted f32");
+        let cut = Setting { error: 1.0 / 255.0, max_depth: Some(1), boxes: false, ..f32 };
+        assert_eq!(cut.to_string(), "whitted f32, error 0.00392, 1 generation, no boxes");
+        assert_eq!(Setting { samples: 4, scale: 0.5, ..f32 }.to_string(), "whitted f32, 4 samples, scale 0.5");
+        assert_eq!(Setting { kernel: Kernel::Plain, max_depth: Some(4), ..f32 }.to_string(), "plain, 4 generations");
+    }
+
+    #[test]
+    fn numbers_have_three_digits() {
+        for (value, text) in
+            [(0.0, "0"), (0.1, "0.1"), (1.0 / 510.0, "0.00196"), (12.345, "12.3"), (300.0, "300"), (1e-7, "1.00e-7")]
+        {
+            assert_eq!(three_digits(value), text);
+        }
+    }
+}
