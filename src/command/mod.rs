@@ -9,6 +9,7 @@ pub mod interrupt;
 pub mod plan;
 pub mod render;
 pub mod stability;
+pub mod trade;
 pub mod validate;
 pub mod view;
 
@@ -39,6 +40,7 @@ pub enum Command {
     Compare(compare::CompareArgs),
     Stability(stability::StabilityArgs),
     Fps(fps::FpsArgs),
+    Trade(trade::TradeArgs),
     Validate(validate::ValidateArgs),
     Devices(devices::DevicesArgs),
     Gallery(gallery::GalleryArgs),
@@ -54,6 +56,7 @@ impl Command {
             Self::Compare(args) => Ok(compare::run(args)?),
             Self::Stability(args) => stability::run(args),
             Self::Fps(args) => fps::run(args),
+            Self::Trade(args) => trade::run(args),
             Self::Validate(args) => validate::run(args),
             Self::Devices(args) => devices::run(args),
             Self::Gallery(args) => gallery::run(args),
@@ -140,6 +143,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.downcast_ref().is_some_and(OutputError::is_input_error)
             || cause.downcast_ref().is_some_and(SettingError::is_input_error)
             || cause.is::<PlanError>()
+            || cause.is::<trade::Contradictory>()
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });
     if matches!(error.downcast_ref(), Some(TracerError::Stopped)) || error.is::<fps::Stopped>() {

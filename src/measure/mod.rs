@@ -9,6 +9,7 @@ pub mod output;
 pub mod stability;
 mod statistics;
 mod timing;
+pub mod trade;
 
 pub use discontinuity::{Difference, bars};
 pub use image_error::{ComparisonError, ErrorDomain, ImageError, image_error};

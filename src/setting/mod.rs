@@ -59,7 +59,15 @@ pub struct Setting {
 impl Default for Setting {
     /// The accurate kernel, leaving out nothing.
     fn default() -> Self {
-        Self { kernel: Kernel::Whitted, precision: None, error: 0.0, max_depth: None, boxes: true, samples: 1, scale: 1.0 }
+        Self {
+            kernel: Kernel::Whitted,
+            precision: None,
+            error: 0.0,
+            max_depth: None,
+            boxes: true,
+            samples: 1,
+            scale: 1.0,
+        }
     }
 }
 

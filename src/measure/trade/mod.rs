@@ -1,0 +1,192 @@
+//! The price of accuracy: what every setting of a sweep takes and how far its picture is from the truth, on one device
+//! and one scene.
+//!
+//! The truth is the reference's, of one of two pictures ([`Target`]). Times are GPU times of pairs of frames, one by the
+//! baseline and one by the setting, so that whatever slows the machine down slows both: settings are compared by the
+//! ratio of a pair.
+
+mod chart;
+mod choice;
+mod csv;
+#[cfg(test)]
+mod example;
+mod figures;
+mod file;
+mod markdown;
+mod measuring;
+mod sweep;
+mod truth;
+
+use serde::Serialize;
+
+pub use choice::{Candidate, Question, contenders, front};
+pub use figures::{Answer, Figures, answers, figures};
+pub use measuring::{Step, measure};
+pub use sweep::{Axes, Planned, Sweep};
+pub use truth::{Truth, TruthError, truth};
+
+use super::{Budget, Clock, ImageError, Machine, median, quartiles};
+use crate::scene::Scene;
+use crate::setting::Setting;
+
+/// Which picture is the true one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Target {
+    /// Of the points in the middle of the pixels.
+    #[default]
+    Point,
+    /// Of the pixels' areas: the mean of 8x8 points on a grid in each.
+    Area,
+}
+
+impl Target {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Point => "point",
+            Self::Area => "area",
+        }
+    }
+}
+
+/// Which pixels' largest error is the error of a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Counted {
+    #[default]
+    AllPixels,
+    /// Without discontinuities: pixels beside one whose ray goes another way.
+    OffDiscontinuities,
+}
+
+/// What is the same for all scenes.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Conditions {
+    /// Pixels.
+    pub width: u32,
+    pub height: u32,
+    pub target: Target,
+    pub counted: Counted,
+    /// Of a setting's pairs.
+    pub budget: Budget,
+    /// Whether the validation layers watch, which takes its time.
+    pub validation: bool,
+    pub questions: Vec<Question>,
+}
+
+/// How far a picture is from the truth.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct PictureError {
+    /// Of linear values over all pixels, as `zerkalo compare` tells it.
+    #[serde(flatten)]
+    pub image: ImageError,
+    /// Largest error of a channel off discontinuities; `None` where it is not finite.
+    pub max_abs_off_discontinuities: Option<f64>,
+    pub discontinuity_pixels: usize,
+    /// Those that are more than 1/510 off.
+    pub differing_discontinuity_pixels: usize,
+}
+
+impl PictureError {
+    /// The largest of the pixels that count; infinite where a channel is.
+    pub fn largest(&self, counted: Counted) -> f64 {
+        let largest = match counted {
+            Counted::AllPixels => self.image.max_abs.filter(|_| self.image.non_finite_pixels == 0),
+            Counted::OffDiscontinuities => self.max_abs_off_discontinuities,
+        };
+        largest.unwrap_or(f64::INFINITY)
+    }
+
+    /// Of the discontinuity pixels, those that differ; 0 where there are none.
+    pub fn differing_share(&self) -> f64 {
+        self.differing_discontinuity_pixels as f64 / self.discontinuity_pixels.max(1) as f64
+    }
+}
+
+/// A setting, measured.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Point {
+    pub setting: Setting,
+    /// What it leaves out changes no linear channel by more: proven, rounding not in it. `None` where nothing is proven.
+    pub bound: Option<f64>,
+    pub error: PictureError,
+    /// Of pairs of frames, in order: the baseline's and the setting's.
+    pub baseline_samples_ns: Vec<u64>,
+    pub samples_ns: Vec<u64>,
+}
+
+impl Point {
+    /// The quartiles and the median of the setting's time in parts of the baseline's, pair by pair.
+    pub fn ratios(&self) -> Option<[f64; 3]> {
+        let pairs = self.samples_ns.iter().zip(&self.baseline_samples_ns);
+        quartiles(&pairs.map(|(&ours, &baseline)| ours as f64 / baseline.max(1) as f64).collect::<Vec<_>>())
+    }
+}
+
+/// A setting that was not measured.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LeftOut {
+    pub setting: Setting,
+    pub reason: String,
+}
+
+/// The sweep on one scene, whole or in part.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SceneTrade {
+    /// Name or file.
+    pub scene: String,
+    pub solids: usize,
+    /// Generations of a ray by the scene.
+    pub max_depth: u32,
+    /// Of the samples.
+    pub clock: Clock,
+    /// In the order of measuring; the baseline, measured against itself, is the first.
+    pub points: Vec<Point>,
+    pub left_out: Vec<LeftOut>,
+    /// False after Ctrl-C.
+    pub complete: bool,
+}
+
+impl SceneTrade {
+    /// Nothing measured yet; `left_out` as the sweep has it.
+    pub fn new(name: &str, scene: &Scene, sweep: &Sweep) -> Self {
+        Self {
+            scene: name.to_owned(),
+            solids: scene.primitives.len(),
+            max_depth: scene.max_depth,
+            clock: Clock::Gpu,
+            points: Vec::new(),
+            left_out: sweep.left_out.clone(),
+            complete: false,
+        }
+    }
+
+    /// Of all the baseline's frames.
+    pub fn baseline_ns(&self) -> Option<u64> {
+        median(&self.points.iter().flat_map(|point| point.baseline_samples_ns.iter().copied()).collect::<Vec<_>>())
+    }
+
+    /// For choosing, in the points' order.
+    pub fn candidates(&self, counted: Counted) -> Vec<Candidate> {
+        let baseline_ns = self.baseline_ns().unwrap_or_default() as f64;
+        let candidate = |point: &Point| Candidate {
+            error: point.error.largest(counted),
+            time_ns: point.ratios().map_or(f64::INFINITY, |[_, ratio, _]| ratio * baseline_ns),
+            bound: point.bound,
+        };
+        self.points.iter().map(candidate).collect()
+    }
+
+    /// The point that a question is answered with, if any is.
+    pub fn answer(&self, question: Question, counted: Counted) -> Option<usize> {
+        question.answer(&self.candidates(counted))
+    }
+}
+
+/// What was measured, whole or in part.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Trade {
+    pub machine: Machine,
+    pub conditions: Conditions,
+    pub scenes: Vec<SceneTrade>,
+}
