@@ -7,8 +7,9 @@ use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::gpu::{InFlight, shaders};
 use zerkalo::scene::{Light, Projection, Scene, Solid, gallery};
+use zerkalo::setting::{self, Setting};
 use zerkalo::tracer::sampling::Sampling;
-use zerkalo::tracer::{Canvas, Kernel, Precision, Settings, TracerError};
+use zerkalo::tracer::{Canvas, Kernel, Precision, Settings, TracerError, Work, limits_of};
 
 /// A canvas with what it is traced on.
 struct Easel {
@@ -120,6 +121,31 @@ fn every_kernel_s_picture_is_the_tracer_s_bit_for_bit_and_follows_every_edit() {
             scene = gallery::scene("four").unwrap();
             scene.lights.push(Light { position: DVec3::new(-3.0, 5.0, -8.0), ..Light::default() });
             check(&scene, "two lights");
+        }
+    }
+}
+
+#[test]
+fn what_a_setting_leaves_out_the_canvas_leaves_out_as_the_tracer_does() {
+    let device = TestDevice::open();
+    let size = [97, 61];
+    let mut easel = Easel::new(&device, size);
+    let limits = limits_of(device.description());
+    let plain = Setting { kernel: setting::Kernel::Plain, ..Setting::default() };
+    for setting in [
+        Setting { error: 0.1, ..Setting::default() },
+        Setting { max_depth: Some(2), boxes: false, ..Setting::default() },
+        Setting { error: 0.1, ..plain },
+        Setting { kernel: setting::Kernel::Course, max_depth: Some(2), ..Setting::default() },
+        Setting::default(),
+    ] {
+        for name in ["corridor", "grid-sphere-40"] {
+            let scene = scene(name);
+            let settings = setting.drawing(&scene, &limits, size[0], size[1]).unwrap().settings;
+            easel.canvas.use_kernel(settings.kernel).unwrap();
+            easel.canvas.set_work(Work::of(&settings));
+            let (frame, _) = easel.draw(&scene);
+            assert!(frame == render(&device, &scene, &settings), "{name}: {setting}");
         }
     }
 }

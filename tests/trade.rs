@@ -179,7 +179,7 @@ fn what_cannot_be_measured_or_written_is_refused() {
     let place = Place::new();
     for (arguments, part) in [
         (&["--size", "0x5"][..], "--size"),
-        (&["--error", "-1"], "--error"),
+        (&["--error=-1"], "--error"),
         (&["--fps", "0"], "--fps"),
         (&["--seconds", "0"], "--seconds"),
         (&["--kernel", "reference"], "--kernel"),

@@ -9,6 +9,7 @@ use super::interrupt::Listener;
 use super::{DeviceArgs, refuse_messages, scene_named};
 use crate::gpu::Validation;
 use crate::scene::gallery;
+use crate::setting::Setting;
 use crate::tracer::TracerError;
 use crate::viewer::{self, Document, Options};
 
@@ -18,6 +19,9 @@ pub struct ViewArgs {
     /// A scene file (.toml, .json, .zscene) or a name of `zerkalo gallery`, such as `start`
     #[arg(default_value = "showcase")]
     pub scene: String,
+    /// Draw as a file of `zerkalo trade --save-settings` says; the panel offers the kernels, too
+    #[arg(long, value_name = "FILE")]
+    pub settings: Option<PathBuf>,
     #[command(flatten)]
     pub device: DeviceArgs,
     /// Run under core, synchronization and best-practices validation; any message is a failure
@@ -42,6 +46,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         return Err(TracerError::Refused(reason.to_owned()).into());
     }
     let scene = scene_named(&args.scene)?;
+    let setting = args.settings.as_deref().map(Setting::load).transpose()?;
     let is_file = !gallery::has(&args.scene);
     let document = Document::new(scene, is_file.then(|| PathBuf::from(&args.scene)));
     let options = Options {
@@ -49,6 +54,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         validation: if args.validate { Validation::BestPractices } else { Validation::Off },
         is_observed: args.observe,
         watched_sources: args.watch.clone(),
+        setting,
         lose_device_after: args.lose_device_after,
         config_folder: viewer::config_folder(),
     };

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use super::chunks::{Pace, Sweep};
 use super::live_kernel::{LiveKernel, State};
 use super::sampling::Sampling;
-use super::{Kernel, TracerError};
+use super::{Kernel, TracerError, Work};
 use crate::gpu::{Device, GpuError, InFlight, Recorder, Resource, Shader, Timer, Use};
 use crate::scene::Scene;
 use images::{Enlarging, Image, images};
@@ -36,6 +36,7 @@ pub struct Canvas {
     enlarging: Option<Enlarging>,
     size: [u32; 2],
     sampling: Sampling,
+    work: Work,
     /// What the picture being traced, or else the last one, is of.
     current: Option<State>,
     /// What the next is of.
@@ -94,6 +95,7 @@ impl Canvas {
             enlarging: None,
             size,
             sampling: Sampling::PLAIN,
+            work: Work::WHOLE,
             current: None,
             next: None,
             sample: 0,
@@ -110,6 +112,11 @@ impl Canvas {
             dropped: Vec::new(),
             device: device.clone(),
         })
+    }
+
+    /// Where it is traced.
+    pub fn device(&self) -> &Device {
+        &self.device
     }
 
     /// Pixels.
@@ -209,12 +216,17 @@ impl Canvas {
         self.first_of_interest = self.begun + 1;
     }
 
+    /// What is traced from the next picture [asked for](Canvas::show) on.
+    pub fn set_work(&mut self, work: Work) {
+        self.work = work;
+    }
+
     /// Asks for a picture of the scene; of a scene unchanged, nothing is traced.
     ///
     /// # Errors
     /// The kernel cannot take the scene; the picture stays as it is.
     pub fn show(&mut self, scene: &Scene) -> Result<(), TracerError> {
-        let wanted = self.kernel.prepare(scene, self.sampling, self.size)?;
+        let wanted = self.kernel.prepare(scene, &self.work, self.sampling, self.size)?;
         let latest = self.next.as_ref().or(self.current.as_ref());
         if latest != Some(&wanted) {
             self.next = Some(wanted);
@@ -225,7 +237,7 @@ impl Canvas {
     /// Asks for the same picture once more.
     pub fn trace_again(&mut self, scene: &Scene) -> Result<(), TracerError> {
         if self.is_whole() {
-            self.next = Some(self.kernel.prepare(scene, self.sampling, self.size)?);
+            self.next = Some(self.kernel.prepare(scene, &self.work, self.sampling, self.size)?);
         }
         Ok(())
     }

@@ -7,7 +7,7 @@ use super::course::{CourseKernel, CourseScene, WORKGROUP};
 use super::live_whitted::{LiveWhitted, WhittedState};
 use super::records::PrimitiveRecords;
 use super::sampling::Sampling;
-use super::{Kernel, TracerError};
+use super::{Kernel, TracerError, Work};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Shader};
 use crate::plan::Precision;
 use crate::scene::{DEPTH_LIMIT, Scene};
@@ -56,13 +56,20 @@ impl LiveKernel {
 
     /// # Errors
     /// The kernel cannot take the scene on this device.
-    pub fn prepare(&self, scene: &Scene, sampling: Sampling, size: [u32; 2]) -> Result<State, TracerError> {
+    pub fn prepare(
+        &self,
+        scene: &Scene,
+        work: &Work,
+        sampling: Sampling,
+        size: [u32; 2],
+    ) -> Result<State, TracerError> {
         Ok(match self {
             Self::Course(_) => {
                 sampling.check_plain()?;
-                State::Course(Box::new(CourseScene::new(scene, scene.max_depth, size)?))
+                let max_depth = work.max_depth.unwrap_or(scene.max_depth);
+                State::Course(Box::new(CourseScene::new(scene, max_depth, size)?))
             }
-            Self::Whitted(live) => State::Whitted(Box::new(live.prepare(scene, sampling, size)?)),
+            Self::Whitted(live) => State::Whitted(Box::new(live.prepare(scene, work, sampling, size)?)),
         })
     }
 

@@ -11,9 +11,9 @@ use super::live_kernel::Begun;
 use super::sampling::Sampling;
 use super::whitted::{WhittedPipeline, WhittedScene, check_precision};
 use super::whitted_records::{SolidRecords, WhittedRecords};
-use super::{Kernel, TracerError};
+use super::{Kernel, TracerError, Work};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Texel, Use};
-use crate::plan::{Cuts, Precision};
+use crate::plan::Precision;
 use crate::scene::{Primitive, Scene};
 
 /// The kernel with the state that it began last.
@@ -58,7 +58,13 @@ impl LiveWhitted {
 
     /// # Errors
     /// The kernel cannot take the scene on this device.
-    pub fn prepare(&self, scene: &Scene, sampling: Sampling, size: [u32; 2]) -> Result<WhittedState, TracerError> {
+    pub fn prepare(
+        &self,
+        scene: &Scene,
+        work: &Work,
+        sampling: Sampling,
+        size: [u32; 2],
+    ) -> Result<WhittedState, TracerError> {
         let precision = self.kernel.precision();
         check_precision(&self.device, precision)?;
         let same = self.begun.as_ref().filter(|begun| begun.primitives.list == scene.primitives);
@@ -73,7 +79,9 @@ impl LiveWhitted {
             _ => Arc::new(SolidRecords::of(&scene.primitives, frame, precision, last.map(Arc::as_ref))),
         };
         let records = WhittedRecords::with(scene, solids, precision, size);
-        let scene = WhittedScene::with(&self.device, scene, records, self.kernel, Cuts::NONE, scene.max_depth, size)?;
+        let max_depth = work.max_depth.unwrap_or(scene.max_depth);
+        let scene = WhittedScene::with(&self.device, scene, records, self.kernel, work.cuts, max_depth, size)?;
+        let scene = if work.without_boxes { scene.without_boxes() } else { scene };
         Ok(WhittedState { scene: scene.sampled(sampling, size), primitives })
     }
 

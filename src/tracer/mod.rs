@@ -36,9 +36,7 @@ pub use whitted::{Requirements, check_precision, scene_bindings, upload_scene};
 pub use whitted_records::{SolidRecords, WhittedFrame, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};
-use crate::gpu::{
-    BindingSet, Commands, Device, DeviceDescription, GpuError, Recorder, Texel, Timer, Use,
-};
+use crate::gpu::{BindingSet, Commands, Device, DeviceDescription, GpuError, Recorder, Texel, Timer, Use};
 use crate::plan::{Cuts, Limits, Plan};
 use crate::scene::Scene;
 use chunks::Part;
@@ -165,6 +163,25 @@ impl Settings {
 
     fn sampling(&self) -> Sampling {
         Sampling { samples: self.samples, scale: self.scale }
+    }
+}
+
+/// What a [`Canvas`] traces of any scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Work {
+    /// See [`Settings`], as of the others.
+    pub cuts: Cuts,
+    pub max_depth: Option<u32>,
+    pub without_boxes: bool,
+}
+
+impl Work {
+    /// All of it.
+    pub const WHOLE: Self = Self { cuts: Cuts::NONE, max_depth: None, without_boxes: false };
+
+    pub fn of(settings: &Settings) -> Self {
+        let &Settings { cuts, max_depth, without_boxes, .. } = settings;
+        Self { cuts, max_depth, without_boxes }
     }
 }
 

@@ -6,8 +6,9 @@ use glam::DVec3;
 
 use super::preferences::Preferences;
 use crate::scene::{Light, Material, Projection, Solid, SolidKind};
+use crate::setting::Setting;
+use crate::tracer::Precision;
 use crate::tracer::sampling::Sampling;
-use crate::tracer::{self, Precision};
 
 /// One wish. Edits go through the undo history; a wish that cannot be granted changes nothing and shows a message.
 #[derive(Debug, Clone, PartialEq)]
@@ -85,7 +86,7 @@ pub enum UnsavedAnswer {
 }
 
 /// What draws the picture.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Kernel {
     /// The course work's, on the Vulkan device.
     #[default]
@@ -94,17 +95,8 @@ pub enum Kernel {
     Accurate(Precision),
     /// The accurate model in `f64` on the CPU.
     Reference,
-}
-
-impl Kernel {
-    /// The one of the Vulkan device, if it is.
-    pub fn on_device(self) -> Option<tracer::Kernel> {
-        match self {
-            Self::Course => Some(tracer::Kernel::Course),
-            Self::Accurate(precision) => Some(tracer::Kernel::Whitted(precision)),
-            Self::Reference => None,
-        }
-    }
+    /// As the settings' file says, on the Vulkan device.
+    BySetting(Setting),
 }
 
 /// What the window has to do outside its state.

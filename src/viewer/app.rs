@@ -17,6 +17,7 @@ use super::screen::ScreenError;
 use super::session::{NextFrame, Session};
 use super::state::State;
 use crate::gpu::{Messages, Validation};
+use crate::setting::Setting;
 
 /// How to open the window.
 #[derive(Debug, Clone)]
@@ -28,6 +29,8 @@ pub struct Options {
     pub is_observed: bool,
     /// Sources of the kernel, compiled anew when they change; in debug builds only.
     pub watched_sources: Option<PathBuf>,
+    /// How to draw, and what the panel offers besides the kernels.
+    pub setting: Option<Setting>,
     /// Acts as if the device was lost after so many frames.
     pub lose_device_after: Option<u64>,
     /// Where preferences and unsaved work are kept.
@@ -91,7 +94,7 @@ pub fn run(document: Document, options: Options, on_start: impl FnOnce(Stopper))
     let folder = options.config_folder.as_deref();
     let remembered = folder.map(|folder| Preferences::load(&preferences::file_in(folder)));
     let (recovery, recovered) = Recovery::new(folder);
-    let state = State::new(document, remembered.unwrap_or_default(), recovered);
+    let state = State::new(document, remembered.unwrap_or_default(), recovered).with_setting(options.setting);
     let proxy = event_loop.create_proxy();
     on_start(Stopper(proxy.clone()));
     let messages = Messages::default();

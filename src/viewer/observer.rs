@@ -101,6 +101,7 @@ impl Observation {
                 Kernel::Accurate(Precision::F32) => "whitted f32",
                 Kernel::Accurate(Precision::F64) => "whitted f64",
                 Kernel::Reference => "reference",
+                Kernel::BySetting(_) => "setting",
             }
             .to_owned(),
             device_losses: 0,

@@ -10,6 +10,7 @@ use super::edits::Refusal;
 use super::preferences::Preferences;
 use crate::frame::FileFormat;
 use crate::scene::{Scene, gallery};
+use crate::setting::Setting;
 use crate::tracer::sampling::Sampling;
 
 /// All of the window but its picture.
@@ -20,6 +21,8 @@ pub struct State {
     pub kernel: Kernel,
     /// How finely the accurate kernel traces; see [`State::sampling`].
     pub accurate_sampling: Sampling,
+    /// Of the settings' file, where there is one.
+    pub setting: Option<Setting>,
     /// Traces anew though nothing changes, as measuring needs.
     pub is_continuous: bool,
     pub is_help_shown: bool,
@@ -114,6 +117,7 @@ impl State {
             preferences: preferences.clamped(),
             kernel: Kernel::default(),
             accurate_sampling: Sampling::PLAIN,
+            setting: None,
             is_continuous: false,
             is_help_shown: false,
             dialog: recovered.as_ref().map(|_| Dialog::Recover),
@@ -123,10 +127,16 @@ impl State {
         }
     }
 
+    /// Drawn at first as a settings' file says.
+    pub fn with_setting(self, setting: Option<Setting>) -> Self {
+        Self { kernel: setting.map_or(self.kernel, Kernel::BySetting), setting, ..self }
+    }
+
     /// How finely the kernel that draws traces; those other than the accurate one know but one way.
     pub fn sampling(&self) -> Sampling {
         match self.kernel {
             Kernel::Accurate(_) => self.accurate_sampling,
+            Kernel::BySetting(Setting { samples, scale, .. }) => Sampling { samples, scale },
             Kernel::Course | Kernel::Reference => Sampling::PLAIN,
         }
     }

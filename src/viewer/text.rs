@@ -142,6 +142,7 @@ pub struct GroupWords {
     pub kernel_accurate_f64_hint: &'static str,
     pub kernel_reference: &'static str,
     pub kernel_reference_hint: &'static str,
+    pub kernel_by_setting: &'static str,
     pub samples: &'static str,
     pub samples_hint: &'static str,
     pub scale: &'static str,

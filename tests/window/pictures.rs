@@ -120,6 +120,23 @@ fn samples_are_added_while_the_window_rests_and_the_scale_changes_what_is_traced
 }
 
 #[test]
+fn a_settings_file_draws_as_it_does_in_render_until_another_kernel_is_chosen() {
+    let desk = Desk::new(Locale::Russian, [560, 300]);
+    let setting = "kernel = \"plain\"\nerror = 0.1\nmax_depth = 3\n";
+    std::fs::write(desk.path("fast.toml"), setting).unwrap();
+    let mut window = desk.view(&["corridor", "--settings", "fast.toml"]);
+    assert_eq!(window.now().kernel, "setting");
+    let size = window.settle().picture_size;
+    assert!(window.screenshot("fast.exr") == desk.render_with(&["--settings", "fast.toml"], "corridor", size));
+    window.click("Курсовая (Vulkan)");
+    window.wait_until("the course's", |now| now.kernel == "course" && now.is_whole);
+    assert!(window.screenshot("course.exr") == desk.render("corridor", size));
+    window.click("Файл настроек (Vulkan)");
+    window.wait_until("the file's again", |now| now.kernel == "setting" && now.is_whole);
+    window.close();
+}
+
+#[test]
 fn a_screenshot_is_taken_while_picture_follows_picture() {
     let desk = Desk::new(Locale::Russian, [700, 500]);
     let mut window = desk.view(&["four"]);

@@ -28,7 +28,12 @@ pub fn example() -> Trade {
         complete: true,
     };
     Trade {
-        machine: Machine { device: "a device".into(), driver: "driver 1".into(), program: "z 1".into() },
+        machine: Machine {
+            device: "a device".into(),
+            driver: "driver 1".into(),
+            program: "z 1".into(),
+            present_mode: None,
+        },
         conditions: Conditions {
             width: 160,
             height: 70,

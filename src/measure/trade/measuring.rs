@@ -83,8 +83,9 @@ enum Outcome {
     LeftOut(LeftOut),
 }
 
-/// A setting whose first frame takes longer, in parts of the budget, is left out.
-const PATIENCE: u32 = 20;
+/// A setting whose first frame, compiling included, takes longer is left out; and than so many times the budget.
+const PATIENCE: Duration = Duration::from_secs(20);
+const PATIENCE_OF_BUDGET: u32 = 20;
 
 /// Of one tracer with the baseline.
 #[derive(Default, Clone)]
@@ -118,7 +119,7 @@ impl<'a> Bench<'a> {
     fn measure(&mut self, planned: &Planned, keep_going: KeepGoing<'_>) -> Result<Outcome, TracerError> {
         let &Planned { setting, bound, .. } = planned;
         let left_out = |reason: String| Ok(Outcome::LeftOut(LeftOut { setting, reason }));
-        let patience = Duration::from_millis(self.budget.time_ms) * PATIENCE;
+        let patience = PATIENCE.max(Duration::from_millis(self.budget.time_ms) * PATIENCE_OF_BUDGET);
         let mut tracer = match TimedTracer::new(self.device, self.scene, &planned.settings) {
             Err(TracerError::Refused(reason)) => return left_out(reason),
             tracer => tracer?,

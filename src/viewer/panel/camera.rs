@@ -39,7 +39,7 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>
             actions.push(Action::ResetCamera);
         }
         show_flight(ui, words, &state.preferences, actions);
-        show_kernel(ui, words, state.kernel, actions);
+        show_kernel(ui, words, state, actions);
         let has_sampling = matches!(state.kernel, Kernel::Accurate(_));
         ui.add_enabled_ui(has_sampling, |ui| show_sampling(ui, words, state.accurate_sampling, actions));
     });
@@ -61,7 +61,7 @@ fn show_projection(ui: &mut Ui, words: &Words, now: Projection, actions: &mut Ve
     });
 }
 
-fn show_kernel(ui: &mut Ui, words: &Words, now: Kernel, actions: &mut Vec<Action>) {
+fn show_kernel(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>) {
     let groups = &words.groups;
     let choices = [
         (Kernel::Course, groups.kernel_course, groups.kernel_course_hint),
@@ -72,7 +72,13 @@ fn show_kernel(ui: &mut Ui, words: &Words, now: Kernel, actions: &mut Vec<Action
     ui.label(groups.kernel);
     ui.horizontal_wrapped(|ui| {
         for (kernel, label, hint) in choices {
-            if choice(ui, now == kernel, label, hint) {
+            if choice(ui, state.kernel == kernel, label, hint) {
+                actions.push(Action::SetKernel(kernel));
+            }
+        }
+        if let Some(setting) = state.setting {
+            let kernel = Kernel::BySetting(setting);
+            if choice(ui, state.kernel == kernel, groups.kernel_by_setting, &setting.to_string()) {
                 actions.push(Action::SetKernel(kernel));
             }
         }

@@ -16,6 +16,7 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, readings: &Readings) {
         Kernel::Accurate(Precision::F32) => groups.kernel_accurate_f32,
         Kernel::Accurate(Precision::F64) => groups.kernel_accurate_f64,
         Kernel::Reference => groups.kernel_reference,
+        Kernel::BySetting(_) => groups.kernel_by_setting,
     };
     let rate = words.frames_per_second(readings.frame_times.frames_per_second());
     // One row, cut off where it ends: a bar that grew with its readings would take room from the picture, which would

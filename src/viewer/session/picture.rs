@@ -2,13 +2,15 @@
 
 use std::time::Instant;
 
+use super::super::action::Kernel;
 use super::super::app::Wake;
 use super::super::reference_worker::ReferenceWorker;
-use super::super::screen::ScreenError;
+use super::super::screen::{Screen, ScreenError};
 use super::super::state::Message;
 use super::{Reference, Screenshot, Session};
+use crate::plan::PlanError;
 use crate::scene::Scene;
-use crate::tracer::{Canvas, TracerError};
+use crate::tracer::{self, Canvas, TracerError, Work, limits_of};
 
 impl Session {
     /// A kernel compiled meanwhile takes the last one's place; a broken one is told of, and the last good one goes on.
@@ -39,12 +41,13 @@ impl Session {
             self.frame_times.clear();
         }
         let scene = self.state.document.scene();
-        let asked = match self.state.kernel.on_device() {
-            Some(kernel) => {
+        let asked = match drawn_on_device(self.state.kernel, scene, screen, size) {
+            Ok(Some((kernel, work))) => {
                 self.reference = Reference::default();
                 if screen.canvas.use_kernel(kernel)? {
                     self.frame_times.clear();
                 }
+                screen.canvas.set_work(work);
                 let shown = screen.canvas.show(scene);
                 if shown.is_ok() && self.state.is_continuous && self.screenshots.is_empty() {
                     screen.canvas.trace_again(scene)
@@ -52,7 +55,8 @@ impl Session {
                     shown
                 }
             }
-            None => self.ask_for_reference(),
+            Ok(None) => self.ask_for_reference(),
+            Err(error) => Err(TracerError::Refused(error.to_string())),
         };
         self.refusal = match asked {
             Ok(()) => None,
@@ -142,4 +146,24 @@ impl Session {
         }
         Ok(())
     }
+}
+
+/// The device's kernel, and what it traces of the scene; `None` where the CPU draws.
+fn drawn_on_device(
+    kernel: Kernel,
+    scene: &Scene,
+    screen: &Screen,
+    [width, height]: [u32; 2],
+) -> Result<Option<(tracer::Kernel, Work)>, PlanError> {
+    Ok(match kernel {
+        Kernel::Course => Some((tracer::Kernel::Course, Work::WHOLE)),
+        Kernel::Accurate(precision) => Some((tracer::Kernel::Whitted(precision), Work::WHOLE)),
+        Kernel::Reference => None,
+        // What may be left out is another thing for every scene.
+        Kernel::BySetting(setting) => {
+            let limits = limits_of(screen.canvas.device().description());
+            let settings = setting.drawing(scene, &limits, width, height)?.settings;
+            Some((settings.kernel, Work::of(&settings)))
+        }
+    })
 }

@@ -79,6 +79,7 @@ pub(super) static WORDS: Words = Words {
         kernel_reference: "Reference (CPU)",
         kernel_reference_hint: "The accurate model (equation 1.19) in f64 on the CPU: slower, without the course's \
             shortcuts",
+        kernel_by_setting: "Settings file (Vulkan)",
         samples: "samples per pixel",
         samples_hint: "Anti-aliasing by the accurate kernels on the Vulkan device: a pixel is the mean of so many rays, \
             which are added one by one while nothing changes",
