@@ -59,11 +59,12 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
     Hit nearest;
     Material matter;
     Real3 emitted, ray_direction = ray.direction;
-    uint light_index = 0u;
+    uint light_index = 0u; // of the first light that has not been tried
     Light lamp;
     // The only one is read once.
     if (LIGHTS == 1u) lamp = light(0u);
     Real light_distance;
+    Real3 light_direction;
     Real3 sent; // back along the ray, of what the lamp gives
     bool is_hit = false;
 
@@ -109,60 +110,75 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
         after_group = is_own_due ? -1 : found.group;
         is_own_due = false;
 
-        if (purpose != ENDED && !goes_on) {
-            bool is_last = !is_shadow_ray && (!is_hit || (generation == 0u && ball_t < nearest.t));
-            if (is_shadow_ray && !is_hidden) emitted = limited(emitted + sent);
-            if (is_last) {
-                Real3 seen = generation == 0u && ball_t < LARGEST ? ball_intensity : background;
-                color = limited(color + weight * seen);
-            }
-            if (!is_shadow_ray && !is_last) {
+        // The ray has come to its end: what it brings, and what comes next.
+        bool is_done = purpose != ENDED && !goes_on;
+        bool is_last = is_done && !is_shadow_ray && (!is_hit || (generation == 0u && ball_t < nearest.t));
+        if (is_done && is_shadow_ray && !is_hidden) emitted = limited(emitted + sent);
+        if (is_last) {
+            Real3 seen = generation == 0u && ball_t < LARGEST ? ball_intensity : background;
+            color = limited(color + weight * seen);
+        }
+        if (is_done && !is_shadow_ray) {
+            light_index = 0u;
+            if (!is_last) {
                 departure = Departure(nearest.slot, nearest.face, nearest.inside);
                 emitted = matter.ambient * matter.color;
                 ray_direction = ray.direction;
             }
+        }
 
-            // On to the next light that a shadow ray is worth, or to the reflection.
-            light_index = is_shadow_ray ? light_index + 1u : 0u;
-            bool is_lit = false;
-            Real3 light_direction = Real3(0.0);
-            if (LIGHTS > 0u) {
-                for (;;) {
-                    turns++;
-                    if (LIGHTS > 1u) lamp = light(light_index);
-                    light_direction = towards(lamp, nearest.point, light_distance);
-                    Real cosine = dot(nearest.normal, light_direction);
-                    // A light at the hit point gives nothing.
-                    bool shines = !is_last && light_index < frame.light_count && light_distance > 0.0 && cosine > 0.0;
-                    sent = sent_back(matter, nearest.normal, ray_direction, light_direction, cosine, lamp);
-                    // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
-                    bool is_faint = weight * largest_component(sent) <= Real(frame.least_shadowed);
-                    is_lit = HAS_SHADOWS && shines && !is_faint;
-                    if (shines && !is_lit) emitted = limited(emitted + (is_faint ? Real3(0.5) * sent : sent));
-                    light_index += is_lit ? 0u : 1u;
-                    if (LIGHTS == 1u || is_lit || light_index >= frame.light_count) break;
+        // On to the next light that a shadow ray is worth. Rays of a packet stay together: within a branch that some of
+        // them do not take, Mesa 22.3 let this loop mix up their lights.
+        bool is_lit = false;
+        if (LIGHTS > 0u) {
+            bool is_seeking = is_done && !is_last && light_index < frame.light_count;
+            for (;;) {
+                turns++;
+                Light next = lamp;
+                if (LIGHTS > 1u) next = light(min(light_index, frame.light_count - 1u));
+                Real distance_to_next;
+                Real3 direction_to_next = towards(next, nearest.point, distance_to_next);
+                Real cosine = dot(nearest.normal, direction_to_next);
+                // A light at the hit point gives nothing.
+                bool shines = is_seeking && distance_to_next > 0.0 && cosine > 0.0;
+                Real3 sent_by_next = sent_back(matter, nearest.normal, ray_direction, direction_to_next, cosine, next);
+                // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
+                bool is_faint = weight * largest_component(sent_by_next) <= Real(frame.least_shadowed);
+                if (HAS_SHADOWS && shines && !is_faint) {
+                    is_lit = true;
+                    lamp = next;
+                    light_distance = distance_to_next;
+                    light_direction = direction_to_next;
+                    sent = sent_by_next;
+                } else if (shines) {
+                    emitted = limited(emitted + (is_faint ? Real3(0.5) * sent_by_next : sent_by_next));
                 }
+                light_index += is_seeking ? 1u : 0u;
+                is_seeking = is_seeking && !is_lit && light_index < frame.light_count;
+                if (LIGHTS == 1u || !any_of_packet(is_seeking)) break;
             }
+        }
 
+        if (is_done) {
             is_own_due = departure.inside;
             after_key = 0u;
             after_group = -1;
-            if (is_lit) {
-                ray = Ray(nearest.point, Real3(0.0), light_direction);
-                purpose = TO_LIGHT;
-                limit = up_to(light_distance);
-            } else {
-                if (!is_last) color = limited(color + weight * emitted);
-                purpose = ENDED;
-                if (HAS_REFLECTIONS) {
-                    weight *= matter.specular;
-                    generation++;
-                    bool goes_further = weight > Real(frame.least_weight) && generation < frame.depth && !is_last;
-                    purpose = goes_further ? TO_NEAREST : ENDED;
-                    ray = Ray(nearest.point, Real3(0.0), reflected(ray_direction, nearest.normal));
-                    limit = FAR;
-                    is_hit = false;
-                }
+        }
+        if (is_lit) {
+            ray = Ray(nearest.point, Real3(0.0), light_direction);
+            purpose = TO_LIGHT;
+            limit = up_to(light_distance);
+        } else if (is_done) {
+            if (!is_last) color = limited(color + weight * emitted);
+            purpose = ENDED;
+            if (HAS_REFLECTIONS) {
+                weight *= matter.specular;
+                generation++;
+                bool goes_further = weight > Real(frame.least_weight) && generation < frame.depth && !is_last;
+                purpose = goes_further ? TO_NEAREST : ENDED;
+                ray = Ray(nearest.point, Real3(0.0), reflected(ray_direction, nearest.normal));
+                limit = FAR;
+                is_hit = false;
             }
         }
         if (!(any_of_packet(purpose != ENDED) && turns < LOOP_TURNS)) break;
