@@ -41,6 +41,8 @@ pub enum FrameError {
     Read { path: PathBuf, reason: String },
     #[error("could not write image {path:?}: {reason}")]
     Write { path: PathBuf, reason: String },
+    #[error("could not make a PNG of a frame: {reason}")]
+    Encode { reason: String },
 }
 
 /// Why the contents of a file are no frame.
@@ -59,7 +61,7 @@ impl FrameError {
     pub fn is_input_error(&self) -> bool {
         match self {
             Self::Size { .. } | Self::UnknownFormat { .. } | Self::Read { .. } => true,
-            Self::Memory { .. } | Self::Write { .. } => false,
+            Self::Memory { .. } | Self::Write { .. } | Self::Encode { .. } => false,
         }
     }
 
@@ -172,6 +174,15 @@ impl Frame {
         output.flush().map_err(|error| FrameError::write(path, error))?;
         drop(output);
         file.finish().map_err(|error| FrameError::write(path, error))
+    }
+
+    /// A PNG file's bytes, see [`FileFormat::Png`].
+    pub fn to_png(&self) -> Result<Vec<u8>, FrameError> {
+        let mut bytes = Vec::new();
+        match png_file::write(self, &mut bytes) {
+            Ok(()) => Ok(bytes),
+            Err(error) => Err(FrameError::Encode { reason: error.to_string() }),
+        }
     }
 
     /// Refuses at once what [`Frame::save`] would refuse after a long render: an unknown extension, a folder that does

@@ -2,10 +2,9 @@
 
 use anyhow::Result;
 use clap::Args;
-use serde::Serialize;
 
 use super::{print_json, print_line};
-use crate::gpu::{self, Arithmetic, Device, DeviceDescription, FloatWidth, GpuError, Validation};
+use crate::gpu::{self, Arithmetic, DeviceDescription};
 
 /// List the Vulkan devices
 #[derive(Debug, Clone, Args)]
@@ -16,11 +15,7 @@ pub struct DevicesArgs {
 }
 
 pub fn run(args: &DevicesArgs) -> Result<()> {
-    let devices = gpu::devices()?;
-    if devices.is_empty() {
-        return Err(GpuError::NoDriver.into());
-    }
-    let tried: Vec<_> = devices.into_iter().map(tried).collect::<Result<_>>()?;
+    let tried = gpu::tried_devices()?;
     if args.json {
         return print_json(&tried);
     }
@@ -40,28 +35,6 @@ pub fn run(args: &DevicesArgs) -> Result<()> {
         print_line(&format!("   {}", limits_line(&device.description)))?;
     }
     Ok(())
-}
-
-/// A device with what its arithmetic was found to be.
-#[derive(Debug, Serialize)]
-struct TriedDevice {
-    #[serde(flatten)]
-    description: DeviceDescription,
-    /// Null where the device cannot be used, or has no such numbers.
-    f32_arithmetic: Option<Arithmetic>,
-    f64_arithmetic: Option<Arithmetic>,
-}
-
-fn tried(description: DeviceDescription) -> Result<TriedDevice> {
-    let (mut f32_arithmetic, mut f64_arithmetic) = (None, None);
-    if description.lacks.is_empty() {
-        let device = Device::open(Some(&description.index.to_string()), Validation::Off)?;
-        f32_arithmetic = Some(gpu::arithmetic(&device, FloatWidth::F32)?);
-        if description.float64 {
-            f64_arithmetic = Some(gpu::arithmetic(&device, FloatWidth::F64)?);
-        }
-    }
-    Ok(TriedDevice { description, f32_arithmetic, f64_arithmetic })
 }
 
 fn limits_line(device: &DeviceDescription) -> String {

@@ -20,6 +20,7 @@ use std::time::Duration;
 
 use anyhow::Context;
 use clap::{Args, Subcommand};
+use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::frame::FrameError;
@@ -120,6 +121,12 @@ fn refuse_messages(messages: &[Message]) -> anyhow::Result<()> {
         eprintln!("{}: {}", message.id, message.text);
     }
     if messages.is_empty() { Ok(()) } else { Err(ValidationFailed { count: messages.len() }.into()) }
+}
+
+/// Drawn on a terminal only.
+fn progress_bar(steps: u64) -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (about {eta} left) {msg}");
+    ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 /// Printing that reports a closed pipe or a full disk instead of panicking.

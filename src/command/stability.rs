@@ -1,21 +1,19 @@
 //! `zerkalo stability`: the catalogue of extremes, tried on every kernel.
 
-use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::interrupt::Listener;
 use super::render::Precision;
-use super::{DeviceArgs, print_json, print_line, refuse_messages};
+use super::{DeviceArgs, print_json, print_line, progress_bar, refuse_messages};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Validation};
-use crate::measure::stability::{Case, Subject, Verdict, catalogue, error_sheet};
+use crate::measure::stability::{Passed, Row, Summary, error_sheet, short, try_all};
 use crate::tracer::{self, TracerError};
 
 /// Kernels on a Vulkan device.
@@ -56,22 +54,6 @@ pub struct StabilityArgs {
     pub validate: bool,
 }
 
-/// A row of `--json`.
-#[derive(Debug, Serialize)]
-struct Row {
-    id: String,
-    /// `scene` where the loader is tried, before any kernel.
-    kernel: &'static str,
-    /// Null for the loader.
-    precision: Option<&'static str>,
-    pass: bool,
-    /// Of all that was measured, what comes nearest to its bound or is farthest beyond.
-    what: &'static str,
-    /// Null where it is not a number.
-    measured: f64,
-    bound: f64,
-}
-
 #[derive(Debug, Serialize)]
 struct Report<'a> {
     device: &'a str,
@@ -101,7 +83,8 @@ pub fn run(args: &StabilityArgs) -> Result<()> {
     let DeviceDescription { name, driver, .. } = device.description().clone();
 
     let listener = Listener::start();
-    let (rows, is_complete) = tried(&device, &kernels, args.quick, &listener)?;
+    let mut rows = Vec::new();
+    let is_complete = try_all_watched(&device, &kernels, args.quick, &mut rows, &listener)?;
     if let Some(output) = args.output.as_ref().filter(|_| is_complete) {
         sheet(&device, &listener)?.save(output)?;
     }
@@ -119,7 +102,7 @@ pub fn run(args: &StabilityArgs) -> Result<()> {
         return Err(TracerError::Stopped.into());
     }
     refuse_messages(&messages.to_vec())?;
-    let failed: Vec<_> = rows.iter().filter(|row| !row.pass && matches!(row.kernel, "whitted" | "scene")).collect();
+    let failed: Vec<_> = rows.iter().filter(|row| row.is_fault()).collect();
     if failed.is_empty() {
         return Ok(());
     }
@@ -128,7 +111,7 @@ pub fn run(args: &StabilityArgs) -> Result<()> {
     Err(CasesFailed { count: failed.len(), ids }.into())
 }
 
-fn kernels(args: &StabilityArgs, device: &DeviceDescription) -> Result<Vec<tracer::Kernel>, TracerError> {
+pub(super) fn kernels(args: &StabilityArgs, device: &DeviceDescription) -> Result<Vec<tracer::Kernel>, TracerError> {
     use tracer::Kernel::{Course, Plain, Whitted};
     if let (Some(kernel @ (Kernel::Course | Kernel::Plain)), Some(Precision::F64)) = (args.kernel, args.precision) {
         let name = if kernel == Kernel::Course { "course" } else { "plain" };
@@ -151,32 +134,26 @@ fn kernels(args: &StabilityArgs, device: &DeviceDescription) -> Result<Vec<trace
     })
 }
 
-/// All cases on all kernels, or those that were tried before Ctrl-C.
-fn tried(
+/// False after Ctrl-C.
+fn try_all_watched(
     device: &Arc<Device>,
     kernels: &[tracer::Kernel],
     is_quick: bool,
+    rows: &mut Vec<Row>,
     listener: &Listener,
-) -> Result<(Vec<Row>, bool), TracerError> {
-    let cases = catalogue();
-    let bar = progress_bar((cases.len() * kernels.len()) as u64);
-    let subjects: Vec<_> = kernels.iter().map(|&kernel| Subject::new(device, kernel, is_quick)).collect();
-    let mut rows = Vec::new();
-    for case in &cases {
-        bar.set_message(case.id.clone());
-        rows.extend(case.try_loader().map(|verdict| row(case, None, &verdict)));
-        for subject in &subjects {
-            if listener.stop_requested() {
-                bar.finish_and_clear();
-                return Ok((rows, false));
-            }
-            let verdict = case.try_kernel(subject)?;
-            rows.extend(verdict.map(|verdict| row(case, Some(subject.kernel), &verdict)));
-            bar.inc(1);
-        }
-    }
+) -> Result<bool, TracerError> {
+    let bar = progress_bar(0);
+    let tried = try_all(device, kernels, is_quick, rows, &mut |progress| {
+        bar.set_length(progress.all as u64);
+        bar.set_position(progress.done as u64);
+        bar.set_message(progress.id.to_owned());
+        if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
     bar.finish_and_clear();
-    Ok((rows, true))
+    match tried {
+        Err(TracerError::Stopped) => Ok(false),
+        tried => tried.map(|()| true),
+    }
 }
 
 fn sheet(device: &Arc<Device>, listener: &Listener) -> Result<Frame, TracerError> {
@@ -191,76 +168,24 @@ fn sheet(device: &Arc<Device>, listener: &Listener) -> Result<Frame, TracerError
     sheet
 }
 
-/// Drawn on a terminal only.
-fn progress_bar(trials: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (about {eta} left) {msg}");
-    ProgressBar::new(trials).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
-}
-
-fn row(case: &Case, kernel: Option<tracer::Kernel>, verdict: &Verdict) -> Row {
-    let (kernel, precision) = match kernel {
-        None => ("scene", None),
-        Some(tracer::Kernel::Course) => ("course", Some("f32")),
-        Some(tracer::Kernel::Plain) => ("plain", Some("f32")),
-        Some(tracer::Kernel::Whitted(precision)) => ("whitted", Some(precision.name())),
-    };
-    let worst = verdict.worst;
-    let (what, measured, bound) = (worst.what, worst.measured, worst.bound);
-    Row { id: case.id.clone(), kernel, precision, pass: verdict.passes(), what, measured, bound }
-}
-
 fn line(row: &Row) -> String {
     let Row { id, kernel, precision, pass, what, measured, bound } = row;
     let (precision, verdict) = (precision.unwrap_or(""), if *pass { "pass" } else { "FAIL" });
     format!("{id:<11} {kernel:<8} {precision:<4} {verdict}  {what}: {} (at most {})", short(*measured), short(*bound))
 }
 
-/// Counts whole, the rest to three digits.
-fn short(value: f64) -> String {
-    match value {
-        _ if !value.is_finite() => value.to_string(),
-        _ if value.fract() == 0.0 && value.abs() < 1e6 => format!("{value:.0}"),
-        _ if (1e-3..1e4).contains(&value.abs()) => format!("{value:.3}"),
-        _ => format!("{value:.2e}"),
-    }
-}
-
 /// A line a group of cases, a column a kernel: how many passed of how many.
 fn summary(rows: &[Row]) -> Vec<String> {
-    let mut columns: Vec<(&str, Option<&str>)> = Vec::new();
-    let mut groups: Vec<&str> = Vec::new();
-    let mut counts: BTreeMap<(&str, usize), (usize, usize)> = BTreeMap::new();
-    for row in rows {
-        let group = row.id.split('-').next().unwrap_or(&row.id);
-        if !groups.contains(&group) {
-            groups.push(group);
-        }
-        let column = (row.kernel, row.precision);
-        let place = columns.iter().position(|known| *known == column).unwrap_or_else(|| {
-            columns.push(column);
-            columns.len() - 1
-        });
-        let (passed, tried) = counts.entry((group, place)).or_default();
-        *passed += usize::from(row.pass);
-        *tried += 1;
-    }
-    let title = |(kernel, precision): &(&str, Option<&str>)| format!("{kernel} {}", precision.unwrap_or(""));
+    let Summary { subjects, groups, all } = Summary::of(rows);
     let cells = |first: &str, cells: Vec<String>| {
         let cells: String = cells.iter().map(|cell| format!("{cell:>13}")).collect();
         format!("{first:<7}{cells}").trim_end().to_owned()
     };
-    let mut lines = vec![cells("passed", columns.iter().map(|column| title(column).trim().to_owned()).collect())];
-    for group in groups {
-        let cell = |place| {
-            counts.get(&(group, place)).map_or("-".to_owned(), |(passed, tried)| format!("{passed} of {tried}"))
-        };
-        lines.push(cells(group, (0..columns.len()).map(cell).collect()));
+    let told = |Passed { passed, tried }: Passed| format!("{passed} of {tried}");
+    let mut lines = vec![cells("passed", subjects)];
+    for (name, of_group) in groups {
+        lines.push(cells(&name, of_group.into_iter().map(|cell| cell.map_or("-".to_owned(), told)).collect()));
     }
-    let total = |place| {
-        let of_column = counts.iter().filter(|((_, column), _)| *column == place).map(|(_, count)| count);
-        let (passed, tried) = of_column.fold((0, 0), |(p, t), (passed, tried)| (p + passed, t + tried));
-        format!("{passed} of {tried}")
-    };
-    lines.push(cells("all", (0..columns.len()).map(total).collect()));
+    lines.push(cells("all", all.into_iter().map(told).collect()));
     lines
 }

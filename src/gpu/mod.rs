@@ -22,6 +22,7 @@ mod shader_compiler;
 pub mod shaders;
 mod surface;
 mod timer;
+mod tried;
 mod widget_memory;
 
 use std::sync::Arc;
@@ -45,6 +46,7 @@ pub(crate) use shader_compiler::{AS_IT_STANDS, compile};
 pub use shaders::Shader;
 pub use surface::{Surface, SurfaceTarget};
 pub use timer::Timer;
+pub use tried::{TriedDevice, tried_devices};
 pub use widget_memory::WidgetMemory;
 
 /// Every device of the machine, usable or not, in the loader's order.

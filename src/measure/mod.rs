@@ -1,7 +1,9 @@
 //! What a frame is worth: how far it is from another, and what it costs.
 
 mod discontinuity;
+mod error_map;
 pub mod fps_table;
+mod gallery_maps;
 mod image_error;
 mod machine;
 mod mask;
@@ -12,6 +14,8 @@ mod timing;
 pub mod trade;
 
 pub use discontinuity::{Difference, bars};
+pub use error_map::{LARGEST_ERROR, SMALLEST_ERROR, error_color, error_map, error_scale};
+pub use gallery_maps::{Drawn, KernelMap, SceneMaps, SceneMapsError, scene_maps};
 pub use image_error::{ComparisonError, ErrorDomain, ImageError, image_error};
 pub use machine::Machine;
 pub use mask::Mask;

@@ -137,8 +137,13 @@ impl FpsTable {
             ReportFormat::Csv => write_text(path, &csv::of(self)),
             ReportFormat::Markdown => write_text(path, &markdown::of(self)),
             ReportFormat::Png => Ok(chart::png(self)?.save(path)?),
-            ReportFormat::Svg => write_text(path, &chart::svg(self)?),
+            ReportFormat::Svg => write_text(path, &self.to_svg()?),
         }
+    }
+
+    /// The chart.
+    pub fn to_svg(&self) -> Result<String, OutputError> {
+        chart::svg(self)
     }
 
     /// Tables for people, also in a terminal.

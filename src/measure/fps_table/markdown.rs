@@ -153,7 +153,7 @@ fn agreement(table: &FpsTable) -> Vec<String> {
 }
 
 /// The median frame in frames a second, the quartiles, slow and fast, in brackets.
-fn spread(cell: &Cell, clock: Clock) -> Option<String> {
+pub fn spread(cell: &Cell, clock: Clock) -> Option<String> {
     let summary = cell.summary(clock)?;
     let [fast, slow] = summary.quartiles_ns.map(|quartile| figure(frames_per_second(quartile)));
     Some(format!("{} [{slow}, {fast}]", figure(frames_per_second(summary.median_ns as f64))))

@@ -16,6 +16,7 @@ use serde::{Deserialize, Serialize};
 pub use agreement::{Agreement, Bend, Ratio};
 pub use figures::{Figures, figures};
 pub use file::FpsTableError;
+pub use markdown::spread;
 pub use measuring::{OffScreen, Stage, measure};
 pub use published::{CLAIMED_OF_SPHERES, CLAIMED_ORDER, published};
 pub use speeds::Speeds;

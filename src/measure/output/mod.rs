@@ -93,6 +93,11 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
 /// Refuses at once what could not be written after a long measuring. Leaves nothing behind.
 pub fn check_output_path(path: &Path) -> Result<(), OutputError> {
     ReportFormat::of(path)?;
+    check_writable(path)
+}
+
+/// As [`check_output_path`], whatever the name.
+pub fn check_writable(path: &Path) -> Result<(), OutputError> {
     WholeFile::create(path).map(drop).map_err(|error| OutputError::write(path, error))
 }
 

@@ -7,9 +7,11 @@ mod rays;
 mod scenes;
 mod sheet;
 mod solids;
+mod trials;
 
 pub use judge::{distance, resized};
 pub use sheet::error_sheet;
+pub use trials::{Passed, Progress, Row, Summary, short, try_all};
 
 use std::sync::{Arc, OnceLock};
 

@@ -11,6 +11,7 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 use super::scenes::{moved_and_scaled, sheet_ball_on_floor, sheet_far_ball, sheet_thin_cylinder};
 use crate::frame::Frame;
 use crate::gpu::Device;
+use crate::measure::{LARGEST_ERROR, SMALLEST_ERROR, error_color};
 use crate::reference;
 use crate::scene::Scene;
 use crate::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
@@ -22,10 +23,6 @@ const TITLE_HEIGHT: u32 = 40;
 const ROW_TITLE_HEIGHT: u32 = 24;
 const LEGEND_HEIGHT: u32 = 64;
 const FONT: &str = "sheet";
-
-/// Errors between these, on a logarithmic scale, are told apart by their shade.
-const SMALLEST_ERROR: f64 = 1e-9;
-const LARGEST_ERROR: f64 = 1.0;
 
 fn rows() -> Vec<(&'static str, Scene)> {
     let floor = sheet_ball_on_floor();
@@ -120,15 +117,6 @@ fn truth(scene: &Scene) -> Result<Vec<DVec3>, TracerError> {
     let image = reference::render(scene, MAP[0], MAP[1], &|_| ControlFlow::Continue(()))
         .map_err(|error| TracerError::Refused(error.to_string()))?;
     Ok(image.pixels.iter().map(|pixel| pixel.color).collect())
-}
-
-/// From dark to light, evenly, so that it reads in grey too; what is not finite is red.
-fn error_color(error: f64) -> RGBColor {
-    if !error.is_finite() {
-        return RED;
-    }
-    let share = (error / SMALLEST_ERROR).log10() / (LARGEST_ERROR / SMALLEST_ERROR).log10();
-    ViridisRGB.get_color(share.clamp(0.0, 1.0))
 }
 
 type Area<'a> = DrawingArea<BitMapBackend<'a>, plotters::coord::Shift>;

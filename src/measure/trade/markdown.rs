@@ -74,19 +74,25 @@ fn of_scene(scene: &SceneTrade, conditions: &Conditions) -> Vec<String> {
     lines
 }
 
-/// The baseline, then the others from the most accurate.
 fn table(scene: &SceneTrade, figures: &[Figures]) -> Vec<String> {
     let header =
         ["setting", "front", "ms", "of baseline", "max abs", "off edges", "edges", "RMSE", "PSNR", "FLIP", "bound"];
-    let mut order: Vec<usize> = (0..scene.points.len()).collect();
-    let key = |place: usize| figures[place].largest_error.unwrap_or(f64::INFINITY);
-    order[1.min(scene.points.len())..].sort_by(|&a, &b| key(a).total_cmp(&key(b)));
-    let mut rows = vec![header.map(str::to_owned).to_vec()];
-    rows.extend(order.into_iter().map(|place| row(&scene.points[place], &figures[place])));
+    let header = header.map(str::to_owned);
+    let rows: Vec<Vec<String>> = [header].into_iter().chain(rows(scene, figures)).map(Vec::from).collect();
     in_line(&rows)
 }
 
-fn row(point: &Point, figures: &Figures) -> Vec<String> {
+/// What is told of every setting, cell by cell: name, a star on the front, ms with quartiles, parts of the baseline's
+/// time, largest error, that off edges, share of edge pixels that differ, RMSE, PSNR in dB, FLIP, bound. The baseline,
+/// then the others from the most accurate.
+pub fn rows(scene: &SceneTrade, figures: &[Figures]) -> Vec<[String; 11]> {
+    let mut order: Vec<usize> = (0..scene.points.len()).collect();
+    let key = |place: usize| figures[place].largest_error.unwrap_or(f64::INFINITY);
+    order[1.min(scene.points.len())..].sort_by(|&a, &b| key(a).total_cmp(&key(b)));
+    order.into_iter().map(|place| row(&scene.points[place], &figures[place])).collect()
+}
+
+fn row(point: &Point, figures: &Figures) -> [String; 11] {
     let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
     let digits = |value: Option<f64>| or_dash(value.map(three_digits));
     let error = &point.error;
@@ -94,7 +100,7 @@ fn row(point: &Point, figures: &Figures) -> Vec<String> {
         let [first, third] = quartiles_ns.map(ms);
         format!("{} [{first}, {third}]", ms(time_ns))
     });
-    vec![
+    [
         figures.name.clone(),
         if figures.is_on_front { "*" } else { "" }.to_owned(),
         or_dash(time),

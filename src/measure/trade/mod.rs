@@ -21,6 +21,7 @@ use serde::Serialize;
 
 pub use choice::{Candidate, Question, contenders, front};
 pub use figures::{Answer, Figures, answers, figures};
+pub use markdown::rows;
 pub use measuring::{Step, measure};
 pub use sweep::{Axes, Planned, Sweep};
 pub use truth::{Truth, TruthError, truth};

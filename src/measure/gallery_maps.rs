@@ -1,0 +1,102 @@
+//! What the kernels make of a scene: a picture, and where each is off the reference.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use super::trade::Truth;
+use super::{ComparisonError, ErrorDomain, ImageError, TimedTracer, error_map, image_error};
+use crate::frame::{Frame, FrameError};
+use crate::gpu::Device;
+use crate::plan::{PlanError, Precision};
+use crate::scene::Scene;
+use crate::setting::{Kernel, Setting};
+use crate::tracer::{TracerError, limits_of};
+
+/// A scene by several kernels.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SceneMaps {
+    /// By the accurate kernel in `f32`.
+    pub picture: Frame,
+    pub maps: Vec<KernelMap>,
+}
+
+/// A kernel, exactly.
+#[derive(Debug, Clone, PartialEq)]
+pub struct KernelMap {
+    pub setting: Setting,
+    /// Or why it does not draw this scene on this device.
+    pub drawn: Result<Drawn, String>,
+}
+
+/// How far a picture is from the reference.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Drawn {
+    pub map: Frame,
+    /// Of linear values, as `zerkalo compare` tells it.
+    pub error: ImageError,
+}
+
+/// Why there is none.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneMapsError {
+    #[error(transparent)]
+    Tracer(#[from] TracerError),
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+    #[error(transparent)]
+    Comparison(#[from] ComparisonError),
+}
+
+/// The kernels whose errors are drawn; the first also makes the picture.
+fn settings() -> [Setting; 4] {
+    let whitted = |precision| Setting { precision: Some(precision), ..Setting::default() };
+    let f32 = Setting { precision: Some(Precision::F32), ..Setting::default() };
+    [
+        whitted(Precision::F32),
+        whitted(Precision::F64),
+        Setting { kernel: Kernel::Plain, ..f32 },
+        Setting { kernel: Kernel::Course, precision: None, ..f32 },
+    ]
+}
+
+/// `keep_going` can stop the work after a tile.
+///
+/// # Errors
+/// The accurate kernel cannot draw the scene on this device, the device fails, or `keep_going` breaks.
+pub fn scene_maps(
+    device: &Arc<Device>,
+    scene: &Scene,
+    truth: &Truth,
+    keep_going: &mut dyn FnMut() -> ControlFlow<()>,
+) -> Result<SceneMaps, SceneMapsError> {
+    let (width, height) = (truth.frame.width(), truth.frame.height());
+    let limits = limits_of(device.description());
+    let mut draw = |setting: &Setting| -> Result<Frame, SceneMapsError> {
+        let drawing = setting.drawing(scene, &limits, width, height)?;
+        let mut tracer = TimedTracer::new(device, scene, &drawing.settings)?;
+        tracer.draw(keep_going)?;
+        Ok(tracer.frame)
+    };
+    let drawn = |frame: &Frame| -> Result<Drawn, SceneMapsError> {
+        let error = image_error(&truth.frame, frame, ErrorDomain::Linear, None)?;
+        Ok(Drawn { map: error_map(&truth.frame, frame)?, error })
+    };
+    let [accurate, others @ ..] = settings();
+    let picture = draw(&accurate)?;
+    let mut maps = vec![KernelMap { setting: accurate, drawn: Ok(drawn(&picture)?) }];
+    for setting in others {
+        let drawn = match draw(&setting) {
+            Ok(frame) => Ok(drawn(&frame)?),
+            // What this kernel alone cannot do.
+            Err(SceneMapsError::Plan(error)) => Err(error.to_string()),
+            Err(SceneMapsError::Tracer(error @ (TracerError::Refused(_) | TracerError::GaveUp { .. }))) => {
+                Err(error.to_string())
+            }
+            Err(error) => return Err(error),
+        };
+        maps.push(KernelMap { setting, drawn });
+    }
+    Ok(SceneMaps { picture, maps })
+}
