@@ -6,11 +6,10 @@ use std::time::Duration;
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::interrupt::Listener;
 use super::render::parse_size;
-use super::{DeviceArgs, parse_seconds, print_line, refuse_messages, report_files};
+use super::{DeviceArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files};
 use crate::gpu::{Device, Messages, Validation};
 use crate::measure::fps_table::{self, FpsTable, OffScreen, Plan, Stage};
 use crate::measure::output::{OutputError, ReportFormat, check_output_path};
@@ -173,7 +172,7 @@ impl Stage for InWindow<'_> {
 }
 
 /// As told, else as begun, else as the course work's table with little time.
-fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
+pub(super) fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
     let base = begun.cloned().unwrap_or_else(Plan::of_course);
     let (width, height) = args.size.unwrap_or((base.width, base.height));
     let kernels = args.kernel.map(|kernel| match kernel {
@@ -231,12 +230,6 @@ fn save(table: &FpsTable, outputs: &[PathBuf], wanted: impl Fn(ReportFormat) -> 
         }
     }
     Ok(())
-}
-
-/// Drawn on a terminal only.
-fn progress_bar(solids: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (about {eta} left) {msg}");
-    ProgressBar::new(solids).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
 }
 
 fn warn_of_outliers(table: &FpsTable) {

@@ -8,12 +8,11 @@ use std::time::{Duration, Instant};
 
 use anyhow::Result;
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 
 use super::interrupt::Listener;
 use super::plan::parse_error;
 use super::render::parse_size;
-use super::{DeviceArgs, parse_seconds, print_line, refuse_messages, report_files, scene_named};
+use super::{DeviceArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files, scene_named};
 use crate::gpu::{Device, Validation};
 use crate::measure::trade::{
     self, Axes, Conditions, Counted, Question, SceneTrade, Step, Sweep, Trade, Truth, TruthError, measure, truth,
@@ -114,9 +113,7 @@ fn parse_fps(text: &str) -> Result<f64, String> {
 }
 
 pub fn run(args: &TradeArgs) -> Result<()> {
-    let questions: Vec<Question> =
-        args.error.map(Question::Error).into_iter().chain(args.fps.map(Question::Fps)).collect();
-    if args.save_settings.is_some() && (questions.len() != 1 || args.scenes.len() != 1) {
+    if args.save_settings.is_some() && (questions(args).len() != 1 || args.scenes.len() != 1) {
         return Err(Contradictory("--save-settings is for one scene and one of --error and --fps").into());
     }
     let scenes: Vec<(&str, Scene)> =
@@ -129,7 +126,7 @@ pub fn run(args: &TradeArgs) -> Result<()> {
     let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
     let device = Device::open(args.device.device.as_deref(), validation)?;
     let messages = device.messages().clone();
-    let conditions = conditions(args, questions);
+    let conditions = conditions(args);
     let mut trade = Trade { machine: Machine::of(device.description()), conditions, scenes: Vec::new() };
     let measured = scenes.iter().try_for_each(|(name, scene)| {
         let outcome = measure_scene(&mut trade, args, &device, name, scene, &listener);
@@ -147,7 +144,11 @@ pub fn run(args: &TradeArgs) -> Result<()> {
     unanswered(&trade).map_or(Ok(()), |unanswered| Err(unanswered.into()))
 }
 
-fn conditions(args: &TradeArgs, questions: Vec<Question>) -> Conditions {
+fn questions(args: &TradeArgs) -> Vec<Question> {
+    args.error.map(Question::Error).into_iter().chain(args.fps.map(Question::Fps)).collect()
+}
+
+pub(super) fn conditions(args: &TradeArgs) -> Conditions {
     let (width, height) = args.size;
     Conditions {
         width,
@@ -159,11 +160,11 @@ fn conditions(args: &TradeArgs, questions: Vec<Question>) -> Conditions {
         counted: if args.off_edges { Counted::OffDiscontinuities } else { Counted::AllPixels },
         budget: args.seconds.map_or(QUICK, Budget::lasting),
         validation: args.validate,
-        questions,
+        questions: questions(args),
     }
 }
 
-fn axes(args: &TradeArgs) -> Axes {
+pub(super) fn axes(args: &TradeArgs) -> Axes {
     let target = match args.target {
         Target::Point => trade::Target::Point,
         Target::Area => trade::Target::Area,
@@ -235,14 +236,6 @@ fn true_picture(conditions: &Conditions, name: &str, scene: &Scene, listener: &L
         TruthError::Render(RenderError::Cancelled) => TracerError::Stopped.into(),
         error => error.into(),
     })
-}
-
-/// Drawn on a terminal only.
-fn progress_bar(steps: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (about {eta} left) {msg}");
-    let bar = ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.tick();
-    bar
 }
 
 /// The one answer, with where it comes from.

@@ -6,14 +6,14 @@ use std::thread;
 
 use anyhow::Result;
 use clap::Args;
-use indicatif::{ProgressBar, ProgressStyle};
-use serde::Serialize;
 
 use super::interrupt::Listener;
-use super::{DeviceArgs, ValidationFailed, print_json, print_line};
-use crate::gpu::{self, Allowance, Check, Device, DeviceDescription, Layer, Messages, Validation};
+use super::{DeviceArgs, ValidationFailed, print_json, print_line, progress_bar};
+use crate::gpu::{self, Allowance, Device, Messages, Validation};
 use crate::tracer::{TracerError, limits_of};
-use crate::validation::{Findings, Group, PICTURE, Run, Scope, Switch, runs, survey, switches};
+use crate::validation::{
+    Allowed, Findings, Group, Outcome, PICTURE, Pass, Run, Scope, Switch, TriedCheck, runs, survey,
+};
 use crate::viewer::{Display, PictureWindow};
 
 /// Draw the gallery by every kernel, precision and variant of a plan under the validation layers
@@ -36,91 +36,80 @@ pub struct ValidateArgs {
 /// The layer does not do all at once.
 const KINDS: [Validation; 2] = [Validation::GpuAssisted, Validation::BestPractices];
 
-#[derive(Debug, Serialize)]
-struct Report {
-    device: String,
-    driver: String,
-    layer: Layer,
-    quick: bool,
-    /// Pixels.
-    width: u32,
-    height: u32,
-    /// False after Ctrl-C or a failure.
-    complete: bool,
-    checks: Vec<TriedCheck>,
-    passes: Vec<Pass>,
-    /// Why nothing was drawn in a window; null where it was.
-    no_window: Option<String>,
-    /// What plans turn on or off, with the runs of a pass that have it so.
-    switches: Vec<Switch>,
-    /// Of all groups.
-    message_count: usize,
-    messages: Vec<Group>,
-    allowed: Vec<Allowed>,
+/// A run that is next, and how many there are in all passes.
+pub(super) struct Next<'a> {
+    pub name: &'a str,
+    pub all: usize,
 }
 
-#[derive(Debug, Serialize)]
-struct TriedCheck {
-    validation: &'static str,
-    check: Check,
-    /// Whether a mistake made on purpose was told.
-    works: bool,
-}
-
-/// Runs under one kind of validation.
-#[derive(Debug, Serialize)]
-struct Pass {
-    validation: &'static str,
-    in_window: bool,
-    runs: usize,
-    /// How many of them were begun.
-    begun: usize,
-}
-
-#[derive(Debug, Serialize)]
-struct Allowed {
-    count: usize,
-    #[serde(flatten)]
-    allowance: Allowance,
-}
+/// Hears of every run before it, often in between, and can stop the work.
+pub(super) type Watch<'a> = &'a (dyn Fn(Option<Next<'_>>) -> ControlFlow<()> + Sync);
 
 pub fn run(args: &ValidateArgs) -> Result<()> {
-    let wanted = args.device.device.as_deref();
-    let layer = gpu::validation_layer()?;
-    let device = Device::open(wanted, Validation::Off)?.description().clone();
-    let scope = if args.quick { Scope::EverySwitch } else { Scope::Whole };
-    let runs = runs(&device, &limits_of(&device), scope)?;
-    let mut report = Report::new(&device, layer, args.quick, &runs);
-    let mut findings = Findings::default();
-    let drawn = draw(wanted, &runs, &mut report, &mut findings);
-    report.complete = drawn.is_ok();
-    report.take_in(findings);
+    let (listener, bar) = (Listener::start(), progress_bar(0));
+    let watch = |next: Option<Next<'_>>| {
+        if listener.stop_requested() {
+            return ControlFlow::Break(());
+        }
+        if let Some(Next { name, all }) = next {
+            bar.set_length(all as u64);
+            bar.inc(1);
+            bar.set_message(name.to_owned());
+        }
+        ControlFlow::Continue(())
+    };
+    let (outcome, drawn) = validated(args, &watch)?;
+    bar.finish_and_clear();
     if args.json {
-        print_json(&report)?;
+        print_json(&outcome)?;
     } else {
-        report.lines().iter().try_for_each(|line| print_line(line))?;
+        lines(&outcome).iter().try_for_each(|line| print_line(line))?;
     }
     drawn?;
-    match report.message_count {
+    match outcome.message_count {
         0 => Ok(()),
         count => Err(ValidationFailed { count }.into()),
     }
 }
 
+/// All that the arguments ask for, or what came of it up to a failure or a stop, which is the second.
+///
+/// # Errors
+/// There is no layer, or no device.
+pub(super) fn validated(args: &ValidateArgs, watch: Watch<'_>) -> Result<(Outcome, Result<()>)> {
+    let wanted = args.device.device.as_deref();
+    let layer = gpu::validation_layer()?;
+    let device = Device::open(wanted, Validation::Off)?.description().clone();
+    let scope = if args.quick { Scope::EverySwitch } else { Scope::Whole };
+    let runs = runs(&device, &limits_of(&device), scope)?;
+    let mut outcome = Outcome::new(&device, layer, args.quick, &runs);
+    let mut findings = Findings::default();
+    let drawn = draw(wanted, &runs, &mut outcome, &mut findings, watch);
+    outcome.complete = drawn.is_ok();
+    outcome.take_in(findings);
+    Ok((outcome, drawn))
+}
+
 /// All passes, off-screen and in the window, up to the first failure.
-fn draw(wanted: Option<&str>, runs: &[Run], report: &mut Report, findings: &mut Findings) -> Result<()> {
+fn draw(
+    wanted: Option<&str>,
+    runs: &[Run],
+    outcome: &mut Outcome,
+    findings: &mut Findings,
+    watch: Watch<'_>,
+) -> Result<()> {
     let shown: Vec<&Run> = runs.iter().filter(|run| run.is_as_in_window).collect();
-    let watch = Watch::start((runs.len() + shown.len()) * KINDS.len());
+    let all = (runs.len() + shown.len()) * KINDS.len();
     // At the same time: most of it is compiling, which takes one core.
     let passes = thread::scope(|scope| {
-        let watch = &watch;
-        let threads = KINDS.map(|validation| scope.spawn(move || draw_off_screen(wanted, validation, runs, watch)));
+        let threads =
+            KINDS.map(|validation| scope.spawn(move || draw_off_screen(wanted, validation, runs, all, watch)));
         threads.map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)))
     });
     let mut failure = Ok(());
     for OffScreen { checks, pass, found, drawn } in passes {
-        report.checks.extend(checks);
-        report.passes.push(pass);
+        outcome.checks.extend(checks);
+        outcome.passes.push(pass);
         findings.add(found);
         failure = failure.and(drawn);
     }
@@ -129,7 +118,7 @@ fn draw(wanted: Option<&str>, runs: &[Run], report: &mut Report, findings: &mut 
     let mut display = match Display::open("all else was drawn") {
         Ok(display) => display,
         Err(error) => {
-            report.no_window = Some(error.to_string());
+            outcome.no_window = Some(error.to_string());
             return Ok(());
         }
     };
@@ -140,15 +129,15 @@ fn draw(wanted: Option<&str>, runs: &[Run], report: &mut Report, findings: &mut 
         let mut window = match window {
             Ok(window) => window,
             Err(error) => {
-                report.no_window = Some(error.to_string());
+                outcome.no_window = Some(error.to_string());
                 return Ok(());
             }
         };
         let mut pass = Pass::new(validation, true, shown.len());
         let drawn = show_all(&mut window, &shown, &messages, findings, &mut |place| {
-            watch.is_at(shown[place], place, &mut pass)
+            is_at(shown[place], place, &mut pass, all, watch)
         });
-        report.passes.push(pass);
+        outcome.passes.push(pass);
         let before = messages.count();
         drop(window);
         findings.note("closing the window", &messages, before);
@@ -166,14 +155,20 @@ struct OffScreen {
     drawn: Result<(), TracerError>,
 }
 
-fn draw_off_screen(wanted: Option<&str>, validation: Validation, runs: &[Run], watch: &Watch) -> OffScreen {
+fn draw_off_screen(
+    wanted: Option<&str>,
+    validation: Validation,
+    runs: &[Run],
+    all: usize,
+    watch: Watch<'_>,
+) -> OffScreen {
     let (mut checks, mut found) = (Vec::new(), Findings::default());
     let mut pass = Pass::new(validation, false, runs.len());
     let mut draw = || {
         for (check, works) in gpu::try_checks(wanted, validation)? {
             checks.push(TriedCheck { validation: validation.name(), check, works });
         }
-        survey(wanted, validation, runs, &mut found, &mut |place| watch.is_at(&runs[place], place, &mut pass))
+        survey(wanted, validation, runs, &mut found, &mut |place| is_at(&runs[place], place, &mut pass, all, watch))
     };
     let drawn = draw();
     OffScreen { checks, pass, found, drawn }
@@ -196,95 +191,41 @@ fn show_all(
     Ok(())
 }
 
-/// Ctrl-C and the progress, which is drawn on a terminal only.
-struct Watch {
-    listener: Listener,
-    bar: ProgressBar,
+/// At the run in the `place` of its pass.
+fn is_at(run: &Run, place: usize, pass: &mut Pass, all: usize, watch: Watch<'_>) -> ControlFlow<()> {
+    let is_new = pass.begun == place;
+    watch(is_new.then_some(Next { name: &run.name, all }))?;
+    pass.begun += usize::from(is_new);
+    ControlFlow::Continue(())
 }
 
-impl Watch {
-    fn start(runs: usize) -> Self {
-        let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (about {eta} left) {msg}");
-        let bar = ProgressBar::new(runs as u64).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-        Self { listener: Listener::start(), bar }
-    }
-
-    /// At the run in the `place` of its pass.
-    fn is_at(&self, run: &Run, place: usize, pass: &mut Pass) -> ControlFlow<()> {
-        if self.listener.stop_requested() {
-            return ControlFlow::Break(());
-        }
-        if pass.begun == place {
-            pass.begun += 1;
-            self.bar.inc(1);
-            self.bar.set_message(run.name.clone());
-        }
-        ControlFlow::Continue(())
-    }
-}
-
-impl Drop for Watch {
-    fn drop(&mut self) {
-        self.bar.finish_and_clear();
-    }
-}
-
-impl Report {
-    fn new(device: &DeviceDescription, layer: Layer, quick: bool, runs: &[Run]) -> Self {
-        let [width, height] = PICTURE;
-        Self {
-            device: device.name.clone(),
-            driver: device.driver.clone(),
-            layer,
-            quick,
-            width,
-            height,
-            complete: false,
-            checks: Vec::new(),
-            passes: Vec::new(),
-            no_window: None,
-            switches: switches(runs),
-            message_count: 0,
-            messages: Vec::new(),
-            allowed: Vec::new(),
-        }
-    }
-
-    fn take_in(&mut self, findings: Findings) {
-        self.message_count = findings.count();
-        let Findings { groups, allowed } = findings;
-        self.messages = groups;
-        self.allowed = allowed.into_iter().map(|(allowance, count)| Allowed { count, allowance }).collect();
-    }
-
-    fn lines(&self) -> Vec<String> {
-        let Self { device, driver, layer, width, height, .. } = self;
-        let mut lines = vec![
-            format!("{device} ({driver})"),
-            format!("{} {}, implementation {}", layer.name, layer.version, layer.implementation),
-            String::new(),
-            "checks, each tried by a mistake made on purpose:".to_owned(),
-        ];
-        lines.extend(self.checks.chunk_by(|a, b| a.validation == b.validation).map(line_of_checks));
-        lines.extend([
-            "  synchronization is the layer's, which passes over dispatches; hazards are in this program's own book"
-                .to_owned(),
-            String::new(),
-            format!("pictures of {width}x{height} pixels:"),
-        ]);
-        lines.extend(self.passes.iter().map(Pass::line));
-        lines.extend(self.no_window.iter().map(|reason| format!("  none in a window: {reason}")));
-        lines.push("  not covered: the panel beside the window's picture".to_owned());
-        let switches = self.switches.iter().map(|Switch { name, on, off }| format!("{name} {on}/{off}"));
-        lines.push(format!("  on/off in the plans of a pass: {}", switches.collect::<Vec<_>>().join(", ")));
-        lines.push(String::new());
-        lines.push(format!("messages: {}", self.message_count));
-        lines.extend(self.messages.iter().flat_map(lines_of_group));
-        lines.extend(self.allowed.iter().map(|Allowed { count, allowance: Allowance { id_part, why } }| {
-            format!("allowed: {count} of *{id_part}*: {why}")
-        }));
-        lines
-    }
+fn lines(outcome: &Outcome) -> Vec<String> {
+    let Outcome { device, driver, layer, width, height, .. } = outcome;
+    let mut lines = vec![
+        format!("{device} ({driver})"),
+        format!("{} {}, implementation {}", layer.name, layer.version, layer.implementation),
+        String::new(),
+        "checks, each tried by a mistake made on purpose:".to_owned(),
+    ];
+    lines.extend(outcome.checks.chunk_by(|a, b| a.validation == b.validation).map(line_of_checks));
+    lines.extend([
+        "  synchronization is the layer's, which passes over dispatches; hazards are in this program's own book"
+            .to_owned(),
+        String::new(),
+        format!("pictures of {width}x{height} pixels:"),
+    ]);
+    lines.extend(outcome.passes.iter().map(line_of_pass));
+    lines.extend(outcome.no_window.iter().map(|reason| format!("  none in a window: {reason}")));
+    lines.push("  not covered: the panel beside the window's picture".to_owned());
+    let switches = outcome.switches.iter().map(|Switch { name, on, off }| format!("{name} {on}/{off}"));
+    lines.push(format!("  on/off in the plans of a pass: {}", switches.collect::<Vec<_>>().join(", ")));
+    lines.push(String::new());
+    lines.push(format!("messages: {}", outcome.message_count));
+    lines.extend(outcome.messages.iter().flat_map(lines_of_group));
+    lines.extend(outcome.allowed.iter().map(|Allowed { count, allowance: Allowance { id_part, why } }| {
+        format!("allowed: {count} of *{id_part}*: {why}")
+    }));
+    lines
 }
 
 fn line_of_checks(checks: &[TriedCheck]) -> String {
@@ -294,17 +235,11 @@ fn line_of_checks(checks: &[TriedCheck]) -> String {
     format!("  {validation:<15} {}", checks.iter().map(word).collect::<Vec<_>>().join(", "))
 }
 
-impl Pass {
-    fn new(validation: Validation, in_window: bool, runs: usize) -> Self {
-        Self { validation: validation.name(), in_window, runs, begun: 0 }
-    }
-
-    fn line(&self) -> String {
-        let Self { validation, in_window, runs, begun } = self;
-        let place = if *in_window { " in a window, without waiting for the display" } else { "" };
-        let stopped = if begun < runs { format!("; {begun} of them were begun") } else { String::new() };
-        format!("  {validation:<15} {runs} runs{place}{stopped}")
-    }
+fn line_of_pass(pass: &Pass) -> String {
+    let Pass { validation, in_window, runs, begun } = pass;
+    let place = if *in_window { " in a window, without waiting for the display" } else { "" };
+    let stopped = if begun < runs { format!("; {begun} of them were begun") } else { String::new() };
+    format!("  {validation:<15} {runs} runs{place}{stopped}")
 }
 
 /// Runs that a group is told with; JSON has all.

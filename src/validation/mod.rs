@@ -1,12 +1,14 @@
 //! Every kernel, precision and variant of a plan drawn under the validation layers, and what they have to say.
 
 mod findings;
+mod outcome;
 mod runs;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
 pub use findings::{Findings, Group};
+pub use outcome::{Allowed, Outcome, Pass, TriedCheck};
 pub use runs::{PICTURE, Run, Scope, Switch, runs, switches};
 
 use crate::gpu::{Device, Validation};
