@@ -26,7 +26,7 @@ as_root() {
 debian_packages() {
     required=(build-essential pkg-config cmake git python3 libvulkan1)
     optional=(mesa-vulkan-drivers libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon0 libxkbcommon-x11-0 libxcb-xkb1
-        ninja-build vulkan-validationlayers xvfb xauth xdotool imagemagick shellcheck)
+        ninja-build vulkan-validationlayers xvfb xauth xdotool imagemagick shellcheck chromium)
 }
 debian_missing() {
     local installed package
@@ -42,7 +42,8 @@ debian_install() { as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y
 fedora_packages() {
     required=(gcc gcc-c++ make pkgconf-pkg-config cmake git python3 vulkan-loader)
     optional=(mesa-vulkan-drivers libX11 libX11-xcb libXcursor libXi libxkbcommon libxkbcommon-x11 libxcb
-        ninja-build vulkan-validation-layers xorg-x11-server-Xvfb xorg-x11-xauth xdotool ImageMagick ShellCheck)
+        ninja-build vulkan-validation-layers xorg-x11-server-Xvfb xorg-x11-xauth xdotool ImageMagick ShellCheck
+        chromium)
 }
 fedora_missing() {
     local package
@@ -56,7 +57,8 @@ fedora_install() { as_root dnf install -y "$@"; }
 arch_packages() {
     required=(gcc make pkgconf cmake git python vulkan-icd-loader)
     optional=(vulkan-swrast libx11 libxcursor libxi libxkbcommon libxkbcommon-x11 libxcb ninja
-        vulkan-validation-layers xorg-server-xvfb xorg-xauth xdotool imagemagick shellcheck)
+        vulkan-validation-layers xorg-server-xvfb xorg-xauth xdotool imagemagick shellcheck
+        chromium)
 }
 arch_missing() { pacman -T "$@" || true; }
 # Only where there is no package list at all: refreshing an old one without upgrading breaks Arch machines.
@@ -91,7 +93,7 @@ check_build_tools() {
     warn "this system's package manager is unknown here. zerkalo needs: a C++ compiler, make or ninja, pkg-config," \
         "cmake, git, python3; the Vulkan loader and a Vulkan 1.2 driver; libX11, libX11-xcb, libXcursor, libXi," \
         "libxkbcommon, libxkbcommon-x11; for the tests also the Vulkan validation layers, Xvfb, xauth, xdotool," \
-        "ImageMagick and ShellCheck"
+        "ImageMagick, ShellCheck and Chromium"
     for tool in c++ cmake git python3; do
         has "$tool" || missing+=("$tool")
     done

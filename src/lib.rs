@@ -3,7 +3,7 @@
 //! The modules stand in the order the data takes: a [`scene`] is read or edited, a [`plan`] tells what it requires, a
 //! [`tracer`] draws it, as a [`setting`] says, on a device that [`gpu`] opened, or the [`reference`](mod@reference) on the
 //! CPU, the picture is a [`frame`], which is saved and [measured](measure); [`validation`] has all of it drawn under
-//! Vulkan's validation layers; each [`command`] goes that way or a part of it.
+//! Vulkan's validation layers, and a [`report`] shows what came of it; each [`command`] goes that way or a part of it.
 
 pub mod scene;
 
@@ -22,6 +22,8 @@ pub mod frame;
 pub mod measure;
 
 pub mod validation;
+
+pub mod report;
 
 pub mod viewer;
 

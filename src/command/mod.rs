@@ -8,6 +8,7 @@ pub mod gallery;
 pub mod interrupt;
 pub mod plan;
 pub mod render;
+pub mod report;
 pub mod stability;
 pub mod trade;
 pub mod validate;
@@ -43,6 +44,7 @@ pub enum Command {
     Fps(fps::FpsArgs),
     Trade(trade::TradeArgs),
     Validate(validate::ValidateArgs),
+    Report(report::ReportArgs),
     Devices(devices::DevicesArgs),
     Gallery(gallery::GalleryArgs),
     Convert(convert::ConvertArgs),
@@ -59,6 +61,7 @@ impl Command {
             Self::Fps(args) => fps::run(args),
             Self::Trade(args) => trade::run(args),
             Self::Validate(args) => validate::run(args),
+            Self::Report(args) => report::run(args),
             Self::Devices(args) => devices::run(args),
             Self::Gallery(args) => gallery::run(args),
             Self::Convert(args) => convert::run(args),
@@ -153,7 +156,10 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.is::<trade::Contradictory>()
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });
-    if matches!(error.downcast_ref(), Some(TracerError::Stopped)) || error.is::<fps::Stopped>() {
+    if matches!(error.downcast_ref(), Some(TracerError::Stopped))
+        || error.is::<fps::Stopped>()
+        || error.is::<report::Stopped>()
+    {
         interrupt::EXIT_CODE
     } else if is_input_error {
         2
