@@ -1,52 +1,26 @@
 //! The program as a user meets it: what it prints, writes and answers, and that it never ends halfway.
 
+mod program;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::Read;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
+use program::{Place, Run, names_in};
 use serde_json::Value;
-use tempfile::TempDir;
 use zerkalo::frame::Frame;
 use zerkalo::gpu;
 use zerkalo::scene::gallery;
 
-/// A folder to run the program in.
-struct Place {
-    folder: TempDir,
-}
-
 impl Place {
-    fn new() -> Self {
-        Self { folder: tempfile::tempdir().unwrap() }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_zerkalo"));
-        command.args(arguments).current_dir(&self.folder);
-        command
-    }
-
-    fn run(&self, arguments: &[&str]) -> Run {
-        Run::of(self.command(arguments).output().unwrap())
-    }
-
     fn json(&self, arguments: &[&str]) -> Value {
         let run = self.run(arguments);
         assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{arguments:?}");
         assert_eq!(run.stdout.lines().count(), 1, "one object on one line: {}", run.stdout);
         serde_json::from_str(&run.stdout).unwrap()
-    }
-
-    /// All names in the folder, hidden ones too.
-    fn names(&self) -> BTreeSet<String> {
-        names_in(self.folder.path())
     }
 
     /// Runs what must fail with `code`, one line that holds all of `parts`, and no trace in the folder.
@@ -69,19 +43,7 @@ impl Place {
     }
 }
 
-#[derive(Debug)]
-struct Run {
-    code: Option<i32>,
-    stdout: String,
-    stderr: String,
-}
-
 impl Run {
-    fn of(output: Output) -> Self {
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        Self { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
-    }
-
     /// The program's one line of complaint.
     #[track_caller]
     fn only_line(&self) -> &str {
@@ -89,11 +51,6 @@ impl Run {
         assert!(line.starts_with("zerkalo: ") && !line.contains(char::is_control), "{:?}", self.stderr);
         line
     }
-}
-
-fn names_in(folder: &Path) -> BTreeSet<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
 fn keys(object: &Value) -> BTreeSet<&str> {

@@ -1,52 +1,29 @@
 //! `zerkalo fps` as a user meets it, on pictures so small that its figures are of no use.
 
+mod program;
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::Read;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::time::{Duration, Instant};
 
+use program::{Place, Run, names_in};
 use serde_json::Value;
-use tempfile::TempDir;
 use zerkalo::frame::Frame;
 
-/// A folder to run the program in.
-struct Place {
-    folder: TempDir,
-}
-
-#[derive(Debug)]
-struct Run {
-    code: Option<i32>,
-    stdout: String,
-    stderr: String,
-}
-
 impl Place {
-    fn new() -> Self {
-        Self { folder: tempfile::tempdir().unwrap() }
+    fn fps_command(&self, arguments: &[&str]) -> Command {
+        self.command(&[&["fps"], arguments].concat())
     }
 
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_zerkalo"));
-        command.arg("fps").args(arguments).current_dir(&self.folder).stdout(Stdio::piped()).stderr(Stdio::piped());
-        command
-    }
-
-    fn run(&self, arguments: &[&str]) -> Run {
-        let output = self.command(arguments).output().unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        Run { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
+    fn fps(&self, arguments: &[&str]) -> Run {
+        Run::of(self.fps_command(arguments).output().unwrap())
     }
 
     #[track_caller]
     fn run_well(&self, arguments: &[&str]) -> String {
-        let run = self.run(arguments);
+        let run = self.fps(arguments);
         assert_eq!(run.code, Some(0), "{arguments:?}: {run:?}");
         run.assert_tells_outliers_only();
         run.stdout
@@ -59,12 +36,12 @@ impl Place {
     /// Runs what must fail with `code`, a complaint that holds `part`, and no trace in the folder.
     #[track_caller]
     fn assert_refused(&self, arguments: &[&str], code: i32, part: &str) {
-        let before = names_in(self.folder.path());
-        let run = self.run(arguments);
+        let before = self.names();
+        let run = self.fps(arguments);
         assert_eq!((run.code, run.stdout.as_str()), (Some(code), ""), "{arguments:?}: {run:?}");
         assert!(run.stderr.contains(part), "{part:?} is not in: {}", run.stderr);
         assert!(run.stderr.starts_with("error: ") || run.stderr.lines().count() == 1, "{}", run.stderr);
-        assert_eq!(names_in(self.folder.path()), before, "{arguments:?} left something");
+        assert_eq!(self.names(), before, "{arguments:?} left something");
     }
 }
 
@@ -75,11 +52,6 @@ impl Run {
         let first = self.stderr.lines().next().unwrap_or_default();
         assert!(first.is_empty() || first.contains("interquartile"), "{}", self.stderr);
     }
-}
-
-fn names_in(folder: &Path) -> BTreeSet<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
 const TINY: &[&str] = &["--size", "48x21", "--counts", "20,10", "--seconds", "0.02", "--validate"];
@@ -141,7 +113,7 @@ fn one_kernel_is_measured_alone_and_the_tables_are_printed() {
     let text = place.run_well(&["--size", "16x7", "--counts", "10", "--kernel", "whitted", "--seconds", "0.01"]);
     assert!(text.contains("## Whitted: frames a second") && !text.contains("## Course"), "{text}");
     assert!(text.contains("| 10 |") && text.contains("57.14"), "{text}");
-    assert_eq!(names_in(place.folder.path()), BTreeSet::new(), "nothing is written unasked");
+    assert_eq!(place.names(), BTreeSet::new(), "nothing is written unasked");
 }
 
 #[test]
@@ -200,7 +172,7 @@ fn a_table_is_gone_on_with_only_as_it_was_begun() {
 fn an_interrupt_keeps_every_finished_cell_and_the_table_is_gone_on_with() {
     let place = Place::new();
     let arguments = ["--size", "48x21", "--counts", "10,20", "--seconds", "0.2", "--validate", "-o", "out"];
-    let mut program = place.command(&arguments).spawn().unwrap();
+    let mut program = place.fps_command(&arguments).spawn().unwrap();
     wait_until("a cell is measured", || place.path("out/fps.json").exists());
     let kill = Command::new("kill").args(["-INT", &program.id().to_string()]).status().unwrap();
     assert!(kill.success());

@@ -3,54 +3,22 @@
 
 mod budget;
 mod oracle;
+mod program;
 
 use std::collections::BTreeSet;
 use std::fs;
 use std::io::Read;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 use budget::random_scene;
 use glam::DVec3;
+use program::{Place, names_in};
 use serde_json::Value;
-use tempfile::TempDir;
 use zerkalo::frame::Frame;
 use zerkalo::measure::{ErrorDomain, image_error, quartiles};
 
-/// A folder to run the program in.
-struct Place {
-    folder: TempDir,
-}
-
-#[derive(Debug)]
-struct Run {
-    code: Option<i32>,
-    stdout: String,
-    stderr: String,
-}
-
 impl Place {
-    fn new() -> Self {
-        Self { folder: tempfile::tempdir().unwrap() }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_zerkalo"));
-        command.args(arguments).current_dir(&self.folder).stdout(Stdio::piped()).stderr(Stdio::piped());
-        command
-    }
-
-    fn run(&self, arguments: &[&str]) -> Run {
-        let output = self.command(arguments).output().unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        Run { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
-    }
-
     #[track_caller]
     fn run_well(&self, arguments: &[&str]) -> String {
         let run = self.run(arguments);
@@ -68,18 +36,13 @@ impl Place {
     /// Runs what must fail with `code`, a complaint that holds all `parts`, and no trace in the folder.
     #[track_caller]
     fn assert_refused(&self, arguments: &[&str], code: i32, parts: &[&str]) {
-        let before = names_in(self.folder.path());
+        let before = self.names();
         let run = self.run(arguments);
         assert_eq!((run.code, run.stdout.as_str()), (Some(code), ""), "{arguments:?}: {run:?}");
         assert!(parts.iter().all(|part| run.stderr.contains(part)), "{parts:?} are not in: {}", run.stderr);
         assert!(run.stderr.starts_with("error: ") || run.stderr.lines().count() == 1, "{}", run.stderr);
-        assert_eq!(names_in(self.folder.path()), before, "{arguments:?} left something");
+        assert_eq!(self.names(), before, "{arguments:?} left something");
     }
-}
-
-fn names_in(folder: &Path) -> BTreeSet<String> {
-    let entries = fs::read_dir(folder).unwrap();
-    entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect()
 }
 
 fn array<'a>(value: &'a Value, key: &str) -> &'a Vec<Value> {
@@ -171,7 +134,7 @@ fn a_question_without_an_answer_is_a_failure_that_tells_what_comes_nearest() {
     assert_eq!(run.code, Some(1), "{run:?}");
     assert!(run.stderr.contains("no setting of the sweep draws 1.00e6 frames a second on \"start\""), "{}", run.stderr);
     assert!(run.stdout.contains("no setting of the sweep reaches it; the fastest one, "), "{}", run.stdout);
-    assert_eq!(names_in(place.folder.path()), BTreeSet::new());
+    assert_eq!(place.names(), BTreeSet::new());
 }
 
 #[test]
