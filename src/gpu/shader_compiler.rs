@@ -12,6 +12,7 @@ pub const AS_WRITTEN: [&str; 3] = ["course", "probe_course_rays", "whitted"];
 /// One build of a kernel's source: what is appended to its name, and macros with their values.
 #[derive(Clone, Copy)]
 pub struct Variant {
+    #[allow(dead_code, reason = "build.rs names kernels by it; `view --watch` compiles those without one")]
     pub suffix: &'static str,
     pub macros: &'static [(&'static str, &'static str)],
     /// Whether the device is asked to keep to IEEE 754 as far as it can.
