@@ -3,6 +3,7 @@
 
 // From within `spread` of the origin, at an angle to `direction` of no more than the one with this sine and cosine.
 struct Bundle {
+    vec3 heading;   // where the rays go, all in all; the zero vector where none searches
     vec3 origin;
     vec3 direction; // unit
     float spread;   // with all that rounding may put off; FAR where the rays have no common direction
@@ -12,12 +13,12 @@ struct Bundle {
 
 #if OCTETS
 Bundle bundle_of(Beam beam, bool is_searching) {
-    vec4 sum = of_packet(is_searching ? vec4(beam.origin, 1.0) : vec4(0.0));
-    vec3 heading = of_packet(is_searching ? beam.direction : vec3(0.0));
+    vec4 sum = sum_of_packet(is_searching ? vec4(beam.origin, 1.0) : vec4(0.0));
     Bundle bundle;
+    bundle.heading = sum_of_packet(is_searching ? beam.direction : vec3(0.0));
     bundle.origin = sum.xyz / max(sum.w, 1.0);
     // Where the rays cancel each other, any vector: the chords below are long then.
-    bundle.direction = heading / sqrt(max(dot(heading, heading), 1e-12));
+    bundle.direction = bundle.heading / sqrt(max(dot(bundle.heading, bundle.heading), 1e-12));
     vec3 from_origin = is_searching ? beam.origin - bundle.origin : vec3(0.0);
     // Twice the sine of half the angle.
     vec3 chord = is_searching ? beam.direction - bundle.direction : vec3(0.0);
@@ -53,5 +54,8 @@ uint solids_ahead(Bundle bundle, vec3 middle, vec3 normal, float normal_support,
     return bits_of_packet(is_apart || is_behind || entry > end ? 0u : 1u << gl_SubgroupInvocationID);
 }
 #else
-Bundle bundle_of(Beam beam, bool is_searching) { return Bundle(vec3(0.0), vec3(0.0), 0.0, 0.0, 0.0); }
+// Each ray is for itself.
+Bundle bundle_of(Beam beam, bool is_searching) {
+    return Bundle(beam.direction, beam.origin, beam.direction, 0.0, 0.0, 1.0);
+}
 #endif

@@ -64,7 +64,6 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
             boxes = h <= LEVELS ? eighths(boxes) : boxes;
         }
 
-        vec3 heading = of_packet(is_searching ? beam.direction : vec3(0.0));
         uint root = (1u << eighths(boxes)) - 1u;
         const uint root_bit = 8u * (LEVELS - 1u);
         uvec2 left = root_bit < 32u ? uvec2(root << root_bit, 0u) : uvec2(0u, root << (root_bit - 32u));
@@ -90,7 +89,7 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
                 uint order;
                 entries = enter_boxes(first + 16u * group, beam, order);
                 leaves = boxes_ahead(entries, end_of(found));
-                are_leaves_backwards = heading[order] < 0.0;
+                are_leaves_backwards = bundle.heading[order] < 0.0;
                 uint met = are_leaves_backwards ? bitfieldReverse(leaves) >> 24 : leaves;
                 uint backwards_bit = 1u << (level - 1u);
                 backwards = are_leaves_backwards ? backwards | backwards_bit : backwards & ~backwards_bit;

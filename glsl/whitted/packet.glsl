@@ -7,45 +7,24 @@
 #if OCTETS
 #extension GL_KHR_shader_subgroup_shuffle : require
 
-bool any_of_packet(bool mine) {
-    uint any = uint(mine);
-    any |= subgroupShuffleXor(any, 1u);
-    any |= subgroupShuffleXor(any, 2u);
-    any |= subgroupShuffleXor(any, 4u);
-    return any != 0u;
-}
+#define OF_PACKET(TYPE, name, COMBINED)                       \
+    TYPE name(TYPE mine) {                                    \
+        TYPE all = mine;                                      \
+        all = COMBINED(all, subgroupShuffleXor(all, 1u));     \
+        all = COMBINED(all, subgroupShuffleXor(all, 2u));     \
+        return COMBINED(all, subgroupShuffleXor(all, 4u));    \
+    }
+#define SUM(a, b) ((a) + (b))
+#define EITHER(a, b) ((a) | (b))
+OF_PACKET(uint, bits_of_packet, EITHER)
+OF_PACKET(vec3, sum_of_packet, SUM)
+OF_PACKET(vec4, sum_of_packet, SUM)
+OF_PACKET(int, greatest_of_packet, max)
+#undef OF_PACKET
+#undef SUM
+#undef EITHER
 
-uint bits_of_packet(uint mine) {
-    uint all = mine;
-    all |= subgroupShuffleXor(all, 1u);
-    all |= subgroupShuffleXor(all, 2u);
-    all |= subgroupShuffleXor(all, 4u);
-    return all;
-}
-
-vec3 of_packet(vec3 mine) {
-    vec3 sum = mine;
-    sum += subgroupShuffleXor(sum, 1u);
-    sum += subgroupShuffleXor(sum, 2u);
-    sum += subgroupShuffleXor(sum, 4u);
-    return sum;
-}
-
-vec4 of_packet(vec4 mine) {
-    vec4 sum = mine;
-    sum += subgroupShuffleXor(sum, 1u);
-    sum += subgroupShuffleXor(sum, 2u);
-    sum += subgroupShuffleXor(sum, 4u);
-    return sum;
-}
-
-int greatest_of_packet(int mine) {
-    int greatest = mine;
-    greatest = max(greatest, subgroupShuffleXor(greatest, 1u));
-    greatest = max(greatest, subgroupShuffleXor(greatest, 2u));
-    greatest = max(greatest, subgroupShuffleXor(greatest, 4u));
-    return greatest;
-}
+bool any_of_packet(bool mine) { return bits_of_packet(uint(mine)) != 0u; }
 
 // Of numbers from 0 on.
 float greatest_of_packet(float mine) { return intBitsToFloat(greatest_of_packet(floatBitsToInt(mine))); }
@@ -56,7 +35,6 @@ float greatest_of_packet(float mine) { return intBitsToFloat(greatest_of_packet(
 #else
 bool any_of_packet(bool mine) { return mine; }
 uint bits_of_packet(uint mine) { return mine; }
-vec3 of_packet(vec3 mine) { return mine; }
 #define OWN_ROW(rows, first, stride) vec4(0.0)
 #define ROW_OF_EIGHT(own, rows, first, stride, k) texelFetch(rows, int((first) + (stride) * (k)))
 #endif
