@@ -2,6 +2,7 @@
 
 mod host;
 mod images;
+mod timing;
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -10,9 +11,10 @@ use super::chunks::{Pace, Sweep};
 use super::live_kernel::{LiveKernel, State};
 use super::sampling::Sampling;
 use super::{Kernel, TracerError, Work};
-use crate::gpu::{Device, GpuError, InFlight, Recorder, Resource, Shader, Timer, Use};
+use crate::gpu::{Device, GpuError, InFlight, Recorder, Resource, Shader, Use};
 use crate::scene::Scene;
 use images::{Enlarging, Image, images};
+use timing::{Chunk, Timing};
 
 /// Pictures that take longer are seen while they come into being; shorter ones only whole, lest a moving one fall apart.
 const LONG: Duration = Duration::from_millis(500);
@@ -45,46 +47,20 @@ pub struct Canvas {
     sample: u32,
     sweep: Sweep,
     is_in_place: bool,
-    pace: Pace,
-    /// What each place of the ring has in flight, if anything.
-    places: [Place; InFlight::COUNT],
+    timing: Timing,
     /// Pictures begun so far; every sample of each pixel counts as one.
     begun: u64,
     begun_at: Instant,
-    /// The first whose time is of interest: those before were of another size or by another kernel.
-    first_of_interest: u64,
-    /// How long the last whole one took, all in all.
-    last_took: Option<Duration>,
-    /// The picture whose chunks are coming in, with their GPU time so far; `None` where the device has no timestamps.
-    timed: (u64, Option<u64>),
-    finished_ns: Vec<u64>,
     uploaded_bytes: u64,
     /// Resources that are used no more.
     dropped: Vec<Resource>,
     device: Arc<Device>,
 }
 
-#[derive(Default)]
-struct Place {
-    timer: Option<Arc<Timer>>,
-    chunk: Option<Chunk>,
-}
-
-/// A part of a picture that was submitted.
-struct Chunk {
-    /// Of which picture, by [`Canvas::begun`].
-    picture: u64,
-    groups: u64,
-    is_last: bool,
-    begun_at: Instant,
-    submitted: Instant,
-}
-
 impl Canvas {
     /// By the course kernel; `shader`: a build of `glsl/course.comp`.
     pub fn new(device: &Arc<Device>, shader: &Shader, size: [u32; 2]) -> Result<Self, TracerError> {
         let kernel = LiveKernel::new(device, Kernel::Course, shader)?;
-        let timer = || Ok::<_, GpuError>(Place { timer: Timer::new(device, "trace")?, chunk: None });
         Ok(Self {
             images: images(device, size)?,
             sweep: Sweep::new(LiveKernel::groups(size)),
@@ -100,14 +76,9 @@ impl Canvas {
             next: None,
             sample: 0,
             is_in_place: true,
-            pace: Pace::new(),
-            places: [timer()?, timer()?],
+            timing: Timing::new(device)?,
             begun: 0,
             begun_at: Instant::now(),
-            first_of_interest: 0,
-            last_took: None,
-            timed: (0, Some(0)),
-            finished_ns: Vec::new(),
             uploaded_bytes: 0,
             dropped: Vec::new(),
             device: device.clone(),
@@ -154,7 +125,7 @@ impl Canvas {
         self.kernel = kernel;
         self.kind = kind;
         self.images.iter_mut().for_each(|image| image.set = None);
-        self.pace = Pace::new();
+        self.timing.pace = Pace::new();
         self.forget_scene();
     }
 
@@ -211,9 +182,9 @@ impl Canvas {
     fn forget_scene(&mut self) {
         (self.current, self.next) = (None, None);
         self.is_in_place = true;
-        self.last_took = None;
+        self.timing.last_took = None;
         self.sweep = Sweep::new(LiveKernel::groups(self.sampling.traced_size(self.size)));
-        self.first_of_interest = self.begun + 1;
+        self.timing.first_of_interest = self.begun + 1;
     }
 
     /// What is traced from the next picture [asked for](Canvas::show) on.
@@ -244,7 +215,7 @@ impl Canvas {
 
     /// Whether submissions are still needed for the picture asked for, or for the time that it took.
     pub fn is_tracing(&self) -> bool {
-        !self.is_finished() || self.places.iter().any(|place| place.chunk.is_some())
+        !self.is_finished() || self.timing.has_chunks_in_flight()
     }
 
     /// Whether all of the picture shown is of the scene asked for last, by one sample a pixel at least.
@@ -278,7 +249,7 @@ impl Canvas {
     /// GPU times of the pictures that came to their end since the last call, nanoseconds; nothing where the device has
     /// no timestamps.
     pub fn take_finished_ns(&mut self) -> Vec<u64> {
-        std::mem::take(&mut self.finished_ns)
+        self.timing.take_finished_ns()
     }
 
     /// Bytes of primitives uploaded so far.
@@ -288,22 +259,7 @@ impl Canvas {
 
     /// Reads the times of what was submitted from this place of the ring and has ended.
     pub fn collect(&mut self, place: usize) -> Result<(), GpuError> {
-        let Place { timer, chunk } = &mut self.places[place];
-        let Some(chunk) = chunk.take() else { return Ok(()) };
-        let time_ns = timer.as_deref().map(Timer::elapsed_ns).transpose()?;
-        // Without timestamps, what the host saw is at least an upper bound.
-        let at_most_ns = || chunk.submitted.elapsed().as_nanos() as u64;
-        self.pace.measured(chunk.groups, time_ns.unwrap_or_else(at_most_ns));
-        // Chunks come in as they went out: none of an older picture follows one of a newer.
-        if self.timed.0 != chunk.picture {
-            self.timed = (chunk.picture, Some(0));
-        }
-        self.timed.1 = self.timed.1.zip(time_ns).map(|(sum, time_ns)| sum + time_ns);
-        if chunk.is_last && chunk.picture >= self.first_of_interest {
-            self.last_took = Some(chunk.begun_at.elapsed());
-            self.finished_ns.extend(self.timed.1);
-        }
-        Ok(())
+        self.timing.collect(place)
     }
 
     /// Collects what is in flight, in its order, before a submission of another kind takes a place of the ring.
@@ -321,7 +277,7 @@ impl Canvas {
         } else if self.sweep.left() == 0 || self.is_in_place {
             self.begin(recorder)?;
         }
-        let groups = self.pace.groups().min(self.sweep.left());
+        let groups = self.timing.pace.groups().min(self.sweep.left());
         let Some(scene) = self.current.as_ref().filter(|_| groups > 0) else { return Ok(()) };
         if !self.is_in_place && self.begun_at.elapsed() > LONG {
             // Longer than expected: from here on it is seen.
@@ -332,7 +288,7 @@ impl Canvas {
         let Some(set) = self.images[target].set.clone() else { return Ok(()) };
         let parts = self.sweep.take(groups);
         let is_last = self.sweep.left() == 0;
-        let timer = self.places[place].timer.clone();
+        let timer = self.timing.timer(place);
         recorder.labelled("trace", |recorder| {
             timer.iter().for_each(|timer| recorder.start(timer));
             // After the timer's start: with a framebuffer around, lavapipe takes a time only at the next barrier.
@@ -351,8 +307,8 @@ impl Canvas {
             timer.iter().for_each(|timer| recorder.stop(timer));
             Ok(())
         })?;
-        self.places[place].chunk =
-            Some(Chunk { picture: self.begun, groups, is_last, begun_at: self.begun_at, submitted: Instant::now() });
+        let chunk = Chunk { picture: self.begun, groups, is_last, begun_at: self.begun_at, submitted: Instant::now() };
+        self.timing.submitted(place, chunk);
         Ok(())
     }
 
@@ -384,7 +340,7 @@ impl Canvas {
         } else {
             self.sweep.start();
         }
-        self.is_in_place = self.last_took.is_none_or(|took| took > LONG);
+        self.is_in_place = self.timing.last_took.is_none_or(|took| took > LONG);
         Ok(())
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ash::{khr, vk};
 
 use super::swapchain_choices::{
-    choose_alpha, choose_extent, choose_format, choose_image_count, choose_present_mode, present_mode_name,
+    choose_alpha, choose_extent, choose_format, choose_image_count, choose_present_mode, copy_region, present_mode_name,
 };
 use crate::gpu::{Device, GpuError, Recorder, Resource, Semaphores, Surface, Use};
 
@@ -360,47 +360,4 @@ fn create_render_pass(device: &Device, format: vk::Format) -> Result<vk::RenderP
         .map_err(GpuError::call(|| "create the widgets' render pass"))?;
     device.set_name(render_pass, "widgets");
     Ok(render_pass)
-}
-
-/// The part of a picture that lies inside the window when its corner is put at `corner`; `None` where none does.
-fn copy_region(picture: vk::Extent2D, window: vk::Extent2D, corner: [u32; 2]) -> Option<vk::ImageBlit> {
-    let width = picture.width.min(window.width.saturating_sub(corner[0]));
-    let height = picture.height.min(window.height.saturating_sub(corner[1]));
-    if width == 0 || height == 0 {
-        return None;
-    }
-    let layers = vk::ImageSubresourceLayers {
-        aspect_mask: vk::ImageAspectFlags::COLOR,
-        mip_level: 0,
-        base_array_layer: 0,
-        layer_count: 1,
-    };
-    let rectangle = |x: u32, y: u32| {
-        let at = |x: u32, y: u32, z| vk::Offset3D { x: x as i32, y: y as i32, z };
-        [at(x, y, 0), at(x + width, y + height, 1)]
-    };
-    Some(
-        vk::ImageBlit::default()
-            .src_subresource(layers)
-            .src_offsets(rectangle(0, 0))
-            .dst_subresource(layers)
-            .dst_offsets(rectangle(corner[0], corner[1])),
-    )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn extent(width: u32, height: u32) -> vk::Extent2D {
-        vk::Extent2D { width, height }
-    }
-
-    #[test]
-    fn a_picture_is_cut_at_the_windows_edge() {
-        let region = copy_region(extent(100, 50), extent(80, 200), [10, 20]).unwrap();
-        assert_eq!((region.src_offsets[1].x, region.src_offsets[1].y), (70, 50));
-        assert_eq!((region.dst_offsets[0].x, region.dst_offsets[1].y), (10, 70));
-        assert!(copy_region(extent(100, 50), extent(80, 200), [80, 0]).is_none());
-    }
 }

@@ -1,4 +1,4 @@
-//! What to take of what a window offers. Pure.
+//! What to take of what a window offers, and what of a picture it has room for. Pure.
 
 use ash::vk;
 
@@ -53,6 +53,32 @@ pub(super) fn choose_alpha(supported: vk::CompositeAlphaFlagsKHR) -> vk::Composi
     wanted.into_iter().find(|alpha| supported.contains(*alpha)).unwrap_or(vk::CompositeAlphaFlagsKHR::OPAQUE)
 }
 
+/// The part of a picture that lies inside the window when its corner is put at `corner`; `None` where none does.
+pub(super) fn copy_region(picture: vk::Extent2D, window: vk::Extent2D, corner: [u32; 2]) -> Option<vk::ImageBlit> {
+    let width = picture.width.min(window.width.saturating_sub(corner[0]));
+    let height = picture.height.min(window.height.saturating_sub(corner[1]));
+    if width == 0 || height == 0 {
+        return None;
+    }
+    let layers = vk::ImageSubresourceLayers {
+        aspect_mask: vk::ImageAspectFlags::COLOR,
+        mip_level: 0,
+        base_array_layer: 0,
+        layer_count: 1,
+    };
+    let rectangle = |x: u32, y: u32| {
+        let at = |x: u32, y: u32, z| vk::Offset3D { x: x as i32, y: y as i32, z };
+        [at(x, y, 0), at(x + width, y + height, 1)]
+    };
+    Some(
+        vk::ImageBlit::default()
+            .src_subresource(layers)
+            .src_offsets(rectangle(0, 0))
+            .dst_subresource(layers)
+            .dst_offsets(rectangle(corner[0], corner[1])),
+    )
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -98,5 +124,13 @@ mod tests {
             choose_image_count(&vk::SurfaceCapabilitiesKHR { min_image_count, max_image_count, ..Default::default() })
         };
         assert_eq!((count(2, 0), count(2, 8), count(3, 3)), (3, 3, 3));
+    }
+
+    #[test]
+    fn a_picture_is_cut_at_the_windows_edge() {
+        let region = copy_region(extent(100, 50), extent(80, 200), [10, 20]).unwrap();
+        assert_eq!((region.src_offsets[1].x, region.src_offsets[1].y), (70, 50));
+        assert_eq!((region.dst_offsets[0].x, region.dst_offsets[1].y), (10, 70));
+        assert!(copy_region(extent(100, 50), extent(80, 200), [80, 0]).is_none());
     }
 }
