@@ -9,10 +9,10 @@ use clap::{Args, ValueEnum};
 
 use super::interrupt::Listener;
 use super::render::parse_size;
-use super::{DeviceArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files};
+use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files};
 use crate::gpu::{Device, Messages, Validation};
 use crate::measure::fps_table::{self, FpsTable, OffScreen, Plan, Stage};
-use crate::measure::output::{OutputError, ReportFormat, check_output_path};
+use crate::measure::output::{OutputError, ReportFormat, Table, check_output_path};
 use crate::measure::{Budget, FrameTime, Machine};
 use crate::scene::{Scene, SolidKind};
 use crate::tracer::TracerError;
@@ -60,14 +60,8 @@ pub struct FpsArgs {
     /// as the course work did
     #[arg(long)]
     pub in_window: bool,
-    /// Print one JSON object
-    #[arg(long)]
-    pub json: bool,
     #[command(flatten)]
-    pub device: DeviceArgs,
-    /// Run under core, synchronization and GPU-assisted validation, which takes its time; any message is a failure
-    #[arg(long)]
-    pub validate: bool,
+    pub measuring: MeasuringArgs,
 }
 
 /// Ctrl-C before the table was whole.
@@ -87,7 +81,7 @@ fn parse_count(text: &str) -> Result<usize, String> {
 pub fn run(args: &FpsArgs) -> Result<()> {
     let begun = args.resume.as_deref().map(FpsTable::load).transpose()?;
     let plan = plan(args, begun.as_ref().map(|table| &table.plan));
-    let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
+    let validation = if args.measuring.validate { Validation::GpuAssisted } else { Validation::Off };
     let mut display = args.in_window.then(|| Display::open(WITHOUT_WINDOW)).transpose()?;
     let Scaffold { mut stage, machine, messages } = match &mut display {
         Some(display) => in_window(display, args, &plan, validation)?,
@@ -109,7 +103,7 @@ pub fn run(args: &FpsArgs) -> Result<()> {
     let is_complete = fill(&mut table, &mut *stage, &outputs)?;
     drop(stage);
     save(&table, &outputs, |_| true)?;
-    print_line(if args.json { table.to_json() } else { table.to_markdown() }.trim_end())?;
+    print_line(if args.measuring.json { table.to_json() } else { table.to_markdown() }.trim_end())?;
     warn_of_outliers(&table);
     if !is_complete {
         return Err(stopped(&table, args, &outputs).into());
@@ -127,7 +121,7 @@ struct Scaffold<'d> {
 const WITHOUT_WINDOW: &str = "without --in-window nothing need be shown";
 
 fn off_screen(args: &FpsArgs, validation: Validation) -> Result<Scaffold<'static>> {
-    let device = Device::open(args.device.device.as_deref(), validation)?;
+    let device = Device::open(args.measuring.device.device.as_deref(), validation)?;
     Ok(Scaffold {
         machine: Machine::of(device.description()),
         messages: device.messages().clone(),
@@ -142,7 +136,7 @@ fn in_window<'d>(
     validation: Validation,
 ) -> Result<Scaffold<'d>> {
     let messages = Messages::default();
-    let (wanted, size) = (args.device.device.as_deref(), [plan.width, plan.height]);
+    let (wanted, size) = (args.measuring.device.device.as_deref(), [plan.width, plan.height]);
     let window = PictureWindow::open(display, size, wanted, validation, &messages)?;
     let present_mode = window.present_mode().map(str::to_owned);
     let machine = Machine { present_mode, ..Machine::of(window.device().description()) };
@@ -190,7 +184,7 @@ pub(super) fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
         kernels: kernels.unwrap_or(base.kernels),
         counts,
         budget: time.map_or(base.budget, Budget::lasting),
-        validation: args.validate,
+        validation: args.measuring.validate,
         in_window: args.in_window,
     }
 }
@@ -251,7 +245,7 @@ fn stopped(table: &FpsTable, args: &FpsArgs, outputs: &[PathBuf]) -> Stopped {
     let advice = match json {
         Some(json) => {
             let more = args.output.iter().filter(|path| *path != json).map(|path| format!(" -o {path:?}"));
-            let validate = if args.validate { " --validate" } else { "" };
+            let validate = if args.measuring.validate { " --validate" } else { "" };
             let in_window = if args.in_window { " --in-window" } else { "" };
             format!("to go on: zerkalo fps --resume {json:?}{}{validate}{in_window}", more.collect::<String>())
         }

@@ -77,6 +77,19 @@ pub struct DeviceArgs {
     pub device: Option<String>,
 }
 
+/// What commands that measure have in common.
+#[derive(Debug, Clone, Args)]
+pub struct MeasuringArgs {
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    pub device: DeviceArgs,
+    /// Run under core, synchronization and GPU-assisted validation, which takes its time; any message is a failure
+    #[arg(long)]
+    pub validate: bool,
+}
+
 /// The validation layers had something to say.
 #[derive(Debug, thiserror::Error)]
 #[error("validation: {count} message(s)")]

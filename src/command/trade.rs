@@ -12,8 +12,9 @@ use clap::{Args, ValueEnum};
 use super::interrupt::Listener;
 use super::plan::parse_error;
 use super::render::parse_size;
-use super::{DeviceArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files, scene_named};
+use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files, scene_named};
 use crate::gpu::{Device, Validation};
+use crate::measure::output::Table;
 use crate::measure::trade::{
     self, Axes, Conditions, Counted, Question, SceneTrade, Step, Sweep, Trade, Truth, TruthError, measure, truth,
 };
@@ -81,14 +82,8 @@ pub struct TradeArgs {
     /// for one of each, called trade; may be repeated
     #[arg(short, long, value_name = "DIR|FILE")]
     pub output: Vec<PathBuf>,
-    /// Print one JSON object
-    #[arg(long)]
-    pub json: bool,
     #[command(flatten)]
-    pub device: DeviceArgs,
-    /// Run under core, synchronization and GPU-assisted validation, which takes its time; any message is a failure
-    #[arg(long)]
-    pub validate: bool,
+    pub measuring: MeasuringArgs,
 }
 
 /// Options that do not go together.
@@ -123,8 +118,8 @@ pub fn run(args: &TradeArgs) -> Result<()> {
 
     // From before the driver's threads compile anything until they are gone: a program that ends in their midst may crash.
     let listener = Listener::start();
-    let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
-    let device = Device::open(args.device.device.as_deref(), validation)?;
+    let validation = if args.measuring.validate { Validation::GpuAssisted } else { Validation::Off };
+    let device = Device::open(args.measuring.device.device.as_deref(), validation)?;
     let messages = device.messages().clone();
     let conditions = conditions(args);
     let mut trade = Trade { machine: Machine::of(device.description()), conditions, scenes: Vec::new() };
@@ -134,7 +129,7 @@ pub fn run(args: &TradeArgs) -> Result<()> {
     });
     drop(device);
     if !trade.scenes.is_empty() {
-        print_line(if args.json { trade.to_json() } else { trade.to_markdown() }.trim_end())?;
+        print_line(if args.measuring.json { trade.to_json() } else { trade.to_markdown() }.trim_end())?;
     }
     measured?;
     if let Some(path) = &args.save_settings {
@@ -159,7 +154,7 @@ pub(super) fn conditions(args: &TradeArgs) -> Conditions {
         },
         counted: if args.off_edges { Counted::OffDiscontinuities } else { Counted::AllPixels },
         budget: args.seconds.map_or(QUICK, Budget::lasting),
-        validation: args.validate,
+        validation: args.measuring.validate,
         questions: questions(args),
     }
 }

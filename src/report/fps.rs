@@ -7,6 +7,7 @@ use super::picture::chart;
 use super::text::{both, dash, table, yes_no};
 use crate::measure::Clock;
 use crate::measure::fps_table::{Agreement, FpsTable, Kernel, Speeds, published, spread};
+use crate::measure::output::Table;
 use crate::measure::output::markdown::figure;
 use crate::scene::SolidKind;
 

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::ReportError;
 use super::picture::chart;
 use super::text::{both, english, table};
+use crate::measure::output::Table;
 use crate::measure::output::markdown::figure;
 use crate::measure::trade::{Answer, Figures, Question, SceneTrade, Trade, answers, figures, rows};
 use crate::setting::three_digits;

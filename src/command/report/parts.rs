@@ -273,7 +273,7 @@ mod tests {
             let parts = Parts::new(is_quick, &DeviceArgs { device: Some("it's -1".to_owned()) }).unwrap();
             assert_eq!(parts.trade.scenes.len(), scenes);
             assert!(parts.stability.quick);
-            assert_eq!(parts.fps.device.device.as_deref(), Some("it's -1"));
+            assert_eq!(parts.fps.measuring.device.device.as_deref(), Some("it's -1"));
             let told = parts.lines.fps.to_string();
             assert!(told.starts_with("zerkalo fps ") && told.ends_with(r" '--device=it'\''s -1'"), "{told}");
         }

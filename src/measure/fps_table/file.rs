@@ -9,7 +9,8 @@ use thiserror::Error;
 
 use super::figures::{Figures, figures};
 use super::{Agreement, Cell, Clock, FpsTable, Kernel, Machine, Plan, chart, csv, markdown, published};
-use crate::measure::output::{OutputError, ReportFormat, write_text};
+use crate::frame::Frame;
+use crate::measure::output::{OutputError, ReportFormat, Table};
 
 /// What a table's JSON says it is. The number is raised when an older program could not read it rightly.
 const FORMAT: &str = "zerkalo-fps-2";
@@ -62,9 +63,8 @@ struct Head {
     format: String,
 }
 
-impl FpsTable {
-    /// One object on one line.
-    pub fn to_json(&self) -> String {
+impl Table for FpsTable {
+    fn to_json(&self) -> String {
         let agreement =
             |kernel| self.plan.kernels.contains(&kernel).then(|| Agreement::of(&self.speeds(kernel, self.clock())));
         let document = Document {
@@ -83,6 +83,24 @@ impl FpsTable {
         serde_json::to_string(&document).expect("a table is JSON")
     }
 
+    fn to_csv(&self) -> String {
+        csv::of(self)
+    }
+
+    fn to_markdown(&self) -> String {
+        markdown::of(self)
+    }
+
+    fn to_svg(&self) -> Result<String, OutputError> {
+        chart::svg(self)
+    }
+
+    fn to_frame(&self) -> Result<Frame, OutputError> {
+        chart::png(self)
+    }
+}
+
+impl FpsTable {
     /// Reads what [`FpsTable::save`] wrote as JSON.
     ///
     /// # Errors
@@ -128,27 +146,6 @@ impl FpsTable {
             return Ok(());
         }
         Err(FpsTableError::Differs { path: path.to_owned(), differences: differences.join(", ") })
-    }
-
-    /// Writes what the name's extension asks for.
-    pub fn save(&self, path: &Path) -> Result<(), OutputError> {
-        match ReportFormat::of(path)? {
-            ReportFormat::Json => write_text(path, &(self.to_json() + "\n")),
-            ReportFormat::Csv => write_text(path, &csv::of(self)),
-            ReportFormat::Markdown => write_text(path, &markdown::of(self)),
-            ReportFormat::Png => Ok(chart::png(self)?.save(path)?),
-            ReportFormat::Svg => write_text(path, &self.to_svg()?),
-        }
-    }
-
-    /// The chart.
-    pub fn to_svg(&self) -> Result<String, OutputError> {
-        chart::svg(self)
-    }
-
-    /// Tables for people, also in a terminal.
-    pub fn to_markdown(&self) -> String {
-        markdown::of(self)
     }
 }
 

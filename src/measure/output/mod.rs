@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-use crate::frame::FrameError;
+use crate::frame::{Frame, FrameError};
 use crate::whole_file::WholeFile;
 
 /// Why a table could not be written; each message is one line.
@@ -77,6 +77,35 @@ impl ReportFormat {
 
     pub fn is_chart(self) -> bool {
         matches!(self, Self::Png | Self::Svg)
+    }
+}
+
+/// Measurements with all forms that they are written in.
+pub trait Table {
+    /// One object on one line.
+    fn to_json(&self) -> String;
+
+    /// A line a cell.
+    fn to_csv(&self) -> String;
+
+    /// Tables for people, also in a terminal.
+    fn to_markdown(&self) -> String;
+
+    /// The chart in lines.
+    fn to_svg(&self) -> Result<String, OutputError>;
+
+    /// The chart in pixels.
+    fn to_frame(&self) -> Result<Frame, OutputError>;
+
+    /// Writes what the name's extension asks for.
+    fn save(&self, path: &Path) -> Result<(), OutputError> {
+        match ReportFormat::of(path)? {
+            ReportFormat::Json => write_text(path, &(self.to_json() + "\n")),
+            ReportFormat::Csv => write_text(path, &self.to_csv()),
+            ReportFormat::Markdown => write_text(path, &self.to_markdown()),
+            ReportFormat::Png => Ok(self.to_frame()?.save(path)?),
+            ReportFormat::Svg => write_text(path, &self.to_svg()?),
+        }
     }
 }
 

@@ -1,13 +1,12 @@
 //! What was measured, in files: each is written whole or not at all.
 
-use std::path::Path;
-
 use serde::Serialize;
 
 use super::figures::{Answer, Figures, answers, figures};
 use super::{Conditions, SceneTrade, Trade, chart, csv, markdown};
+use crate::frame::Frame;
 use crate::measure::Machine;
-use crate::measure::output::{OutputError, ReportFormat, write_text};
+use crate::measure::output::{OutputError, Table};
 
 /// What the JSON says it is.
 const FORMAT: &str = "zerkalo-trade-1";
@@ -30,9 +29,8 @@ struct SceneDocument<'a> {
     answers: Vec<Answer>,
 }
 
-impl Trade {
-    /// One object on one line.
-    pub fn to_json(&self) -> String {
+impl Table for Trade {
+    fn to_json(&self) -> String {
         let of_scene = |scene| SceneDocument {
             scene,
             baseline_ns: scene.baseline_ns(),
@@ -49,24 +47,19 @@ impl Trade {
         serde_json::to_string(&document).expect("what was measured is JSON")
     }
 
-    /// Tables for people, also in a terminal.
-    pub fn to_markdown(&self) -> String {
+    fn to_csv(&self) -> String {
+        csv::of(self)
+    }
+
+    fn to_markdown(&self) -> String {
         markdown::of(self)
     }
 
-    /// Writes what the name's extension asks for.
-    pub fn save(&self, path: &Path) -> Result<(), OutputError> {
-        match ReportFormat::of(path)? {
-            ReportFormat::Json => write_text(path, &(self.to_json() + "\n")),
-            ReportFormat::Csv => write_text(path, &csv::of(self)),
-            ReportFormat::Markdown => write_text(path, &markdown::of(self)),
-            ReportFormat::Png => Ok(chart::png(self)?.save(path)?),
-            ReportFormat::Svg => write_text(path, &self.to_svg()?),
-        }
+    fn to_svg(&self) -> Result<String, OutputError> {
+        chart::svg(self)
     }
 
-    /// The chart.
-    pub fn to_svg(&self) -> Result<String, OutputError> {
-        chart::svg(self)
+    fn to_frame(&self) -> Result<Frame, OutputError> {
+        chart::png(self)
     }
 }
