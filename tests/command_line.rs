@@ -4,12 +4,10 @@ mod program;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
 
-use program::{Place, Run, names_in};
+use program::{Place, Run, interrupted, names_in, wait_until};
 use serde_json::Value;
 use zerkalo::frame::Frame;
 use zerkalo::gpu;
@@ -487,36 +485,15 @@ fn an_interrupt_stops_the_render_and_leaves_nothing() {
         pipeline_caches(&cache_home).iter().for_each(|path| fs::remove_file(path).unwrap());
         let mut command = place.command(&arguments);
         command.env("XDG_CACHE_HOME", &cache_home).stdout(Stdio::piped()).stderr(Stdio::piped());
-        let mut program = command.spawn().unwrap();
+        let program = command.spawn().unwrap();
         // The cache file is written when the kernel is compiled: the first render is next.
         wait_until("the kernel is compiled", || !pipeline_caches(&cache_home).is_empty());
-        let kill = Command::new("kill").args(["-INT", &program.id().to_string()]).status().unwrap();
-        assert!(kill.success());
-
-        let mut status = None;
-        wait_until("the program stops", || {
-            status = program.try_wait().unwrap();
-            status.is_some()
-        });
-        let (mut stdout, mut stderr) = (String::new(), String::new());
-        program.stdout.unwrap().read_to_string(&mut stdout).unwrap();
-        program.stderr.unwrap().read_to_string(&mut stderr).unwrap();
-        let run = Run { code: status.and_then(|status| status.code()), stdout, stderr };
+        let run = interrupted(program);
         assert_eq!((run.code, run.stdout.as_str()), (Some(130), ""), "{run:?}");
         assert!(run.only_line().contains("stopped"), "{run:?}");
         assert_eq!(place.names(), before);
     }
     assert_eq!(fs::read(place.path("older.png")).unwrap(), b"older");
-}
-
-/// Looks every 10 ms, a minute at most.
-#[cfg(unix)]
-fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
-    let start = Instant::now();
-    while !is_so() {
-        assert!(start.elapsed() < Duration::from_secs(60), "waited a minute until {what}");
-        std::thread::sleep(Duration::from_millis(10));
-    }
 }
 
 #[test]

@@ -4,11 +4,9 @@ mod program;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::Read;
 use std::process::Command;
-use std::time::{Duration, Instant};
 
-use program::{Place, Run, names_in};
+use program::{Place, Run, interrupted, names_in, wait_until};
 use serde_json::Value;
 use zerkalo::frame::Frame;
 
@@ -172,19 +170,10 @@ fn a_table_is_gone_on_with_only_as_it_was_begun() {
 fn an_interrupt_keeps_every_finished_cell_and_the_table_is_gone_on_with() {
     let place = Place::new();
     let arguments = ["--size", "48x21", "--counts", "10,20", "--seconds", "0.2", "--validate", "-o", "out"];
-    let mut program = place.fps_command(&arguments).spawn().unwrap();
+    let program = place.fps_command(&arguments).spawn().unwrap();
     wait_until("a cell is measured", || place.path("out/fps.json").exists());
-    let kill = Command::new("kill").args(["-INT", &program.id().to_string()]).status().unwrap();
-    assert!(kill.success());
-    let mut status = None;
-    wait_until("the program stops", || {
-        status = program.try_wait().unwrap();
-        status.is_some()
-    });
-    let (mut stdout, mut stderr) = (String::new(), String::new());
-    program.stdout.unwrap().read_to_string(&mut stdout).unwrap();
-    program.stderr.unwrap().read_to_string(&mut stderr).unwrap();
-    assert_eq!(status.and_then(|status| status.code()), Some(130), "{stderr}");
+    let Run { code, stdout, stderr } = interrupted(program);
+    assert_eq!(code, Some(130), "{stderr}");
     let last = stderr.lines().last().unwrap();
     assert!(last.contains("stopped") && last.contains("--resume \"out/fps.json\" -o \"out\" --validate"), "{stderr}");
     assert!(stdout.contains("- not complete: "), "{stdout}");
@@ -203,14 +192,4 @@ fn an_interrupt_keeps_every_finished_cell_and_the_table_is_gone_on_with() {
     );
     let cells = whole["cells"].as_array().unwrap();
     assert_eq!((cells.len(), &cells[..kept_cells.len()]), (16, &kept_cells[..]), "what was measured stays");
-}
-
-/// Looks every 10 ms, a minute at most.
-#[cfg(unix)]
-fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
-    let start = Instant::now();
-    while !is_so() {
-        assert!(start.elapsed() < Duration::from_secs(60), "waited a minute until {what}");
-        std::thread::sleep(Duration::from_millis(10));
-    }
 }

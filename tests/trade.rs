@@ -7,13 +7,11 @@ mod program;
 
 use std::collections::BTreeSet;
 use std::fs;
-use std::io::Read;
-use std::process::Command;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use budget::random_scene;
 use glam::DVec3;
-use program::{Place, names_in};
+use program::{Place, Run, interrupted, names_in, wait_until};
 use serde_json::Value;
 use zerkalo::frame::Frame;
 use zerkalo::measure::{ErrorDomain, image_error, quartiles};
@@ -171,36 +169,17 @@ fn an_interrupt_keeps_what_is_measured() {
     let place = Place::new();
     let arguments =
         ["trade", "start", "showcase", "--size", "48x21", "--seconds", "0.3", "--kernel", "plain", "-o", "out"];
-    let mut program = place.command(&arguments).spawn().unwrap();
+    let program = place.command(&arguments).spawn().unwrap();
     // The first scene is written when it is done.
     wait_until("a scene is measured", || place.path("out/trade.json").exists());
     std::thread::sleep(Duration::from_millis(300));
-    let kill = Command::new("kill").args(["-INT", &program.id().to_string()]).status().unwrap();
-    assert!(kill.success());
-    let mut status = None;
-    wait_until("the program stops", || {
-        status = program.try_wait().unwrap();
-        status.is_some()
-    });
-    let (mut stdout, mut stderr) = (String::new(), String::new());
-    program.stdout.unwrap().read_to_string(&mut stdout).unwrap();
-    program.stderr.unwrap().read_to_string(&mut stderr).unwrap();
-    assert_eq!(status.and_then(|status| status.code()), Some(130), "{stderr}");
+    let Run { code, stdout, stderr } = interrupted(program);
+    assert_eq!(code, Some(130), "{stderr}");
     assert!(stdout.contains("## start: ") && stdout.contains("Not complete: "), "{stdout}");
     assert_eq!(names_in(&place.path("out")).len(), 5, "every form of what there is, and nothing else");
     let kept: Value = serde_json::from_str(&fs::read_to_string(place.path("out/trade.json")).unwrap()).unwrap();
     let complete: Vec<_> = array(&kept, "scenes").iter().map(|scene| scene["complete"].clone()).collect();
     assert_eq!(complete, [true, false]);
-}
-
-/// Looks every 10 ms, a minute at most.
-#[cfg(unix)]
-fn wait_until(what: &str, mut is_so: impl FnMut() -> bool) {
-    let start = Instant::now();
-    while !is_so() {
-        assert!(start.elapsed() < Duration::from_secs(60), "waited a minute until {what}");
-        std::thread::sleep(Duration::from_millis(10));
-    }
 }
 
 // ---- Whether the answers are right.

@@ -1,9 +1,12 @@
 //! `zerkalo validate` as a user meets it.
 
+mod program;
+
 use std::process::{Command, Stdio};
 use std::thread;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use program::{Run, interrupted};
 use serde_json::Value;
 
 /// Where there is no display.
@@ -54,19 +57,11 @@ fn everything_drawn_is_drawn_without_a_message_and_every_check_was_on() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_keeps_what_was_found() {
-    let mut program = command(&[]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let program = command(&[]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     // The first runs are under way then; all of them take minutes.
     thread::sleep(Duration::from_secs(3));
-    let pid = program.id().to_string();
-    assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
-    let start = Instant::now();
-    while program.try_wait().unwrap().is_none() {
-        assert!(start.elapsed() < Duration::from_secs(60), "it does not stop");
-        thread::sleep(Duration::from_millis(10));
-    }
-    let output = program.wait_with_output().unwrap();
-    let (stdout, stderr) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
-    assert_eq!((output.status.code(), stderr.as_str()), (Some(130), "zerkalo: stopped\n"));
+    let Run { code, stdout, stderr } = interrupted(program);
+    assert_eq!((code, stderr.as_str()), (Some(130), "zerkalo: stopped\n"));
     assert!(stdout.contains("of them were begun") && stdout.contains("messages: 0"), "{stdout}");
 }
 

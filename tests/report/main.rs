@@ -3,6 +3,8 @@
 
 #[path = "../common/mod.rs"]
 mod common;
+#[path = "../program/mod.rs"]
+mod program;
 
 mod browser;
 mod example;
@@ -10,10 +12,9 @@ mod example;
 use std::fs;
 use std::path::Path;
 use std::process::{Command, Stdio};
-use std::thread::sleep;
-use std::time::{Duration, Instant};
 
 use browser::Browser;
+use program::{Run, interrupted, wait_until};
 use serde_json::Value;
 
 /// Pixels: a telephone's width and a desk's.
@@ -133,21 +134,15 @@ fn ctrl_c_leaves_a_page_of_what_was_measured() {
     let program = Command::new(env!("CARGO_BIN_EXE_zerkalo"))
         .args(["report", "--quick", "-o", "out"])
         .current_dir(&folder)
+        .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
     let page = folder.path().join("out/report.html");
-    let start = Instant::now();
     // The first section is written when it is done.
-    while !page.exists() {
-        assert!(start.elapsed() < Duration::from_secs(120), "no section is measured");
-        sleep(Duration::from_millis(20));
-    }
-    let kill = Command::new("kill").args(["-INT", &program.id().to_string()]).status().unwrap();
-    assert!(kill.success());
-    let output = program.wait_with_output().unwrap();
-    let complaint = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{complaint}");
+    wait_until("a section is measured", || page.exists());
+    let Run { code, stderr: complaint, .. } = interrupted(program);
+    assert_eq!(code, Some(130), "{complaint}");
     assert!(complaint.contains("stopped") && complaint.contains("out/report.html"), "{complaint}");
     let names: Vec<_> =
         fs::read_dir(folder.path().join("out")).unwrap().map(|entry| entry.unwrap().file_name()).collect();
