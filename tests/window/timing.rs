@@ -25,12 +25,13 @@ fn an_idle_window_costs_nothing_and_continuous_tracing_does() {
 
 const LEFT: u32 = 1;
 
-/// How long the switch under the mouse takes to be seen turned, clicked again and again.
+/// How long the switch under the mouse takes to be seen turned, clicked again and again: twenty times or, while a picture is
+/// traced, until it is whole.
 #[track_caller]
 fn answers(window: &mut Window, switch: &str, is_tracing: bool) -> Vec<Duration> {
     // What was done before is over.
     thread::sleep(Duration::from_secs(1));
-    let answers = (0..20).map(|_| {
+    let answers = (0..20).map_while(|_| {
         let before = window.now().value(switch).to_owned();
         window.press(LEFT);
         let clicked = Instant::now();
@@ -38,10 +39,10 @@ fn answers(window: &mut Window, switch: &str, is_tracing: bool) -> Vec<Duration>
         let answered = window.wait_until("the switch turns", |now| now.value(switch) != before);
         let time = clicked.elapsed();
         hand.wait().unwrap();
-        assert_eq!(answered.is_whole, !is_tracing, "{}", answered.in_short());
+        assert!(is_tracing || answered.is_whole, "{}", answered.in_short());
         // Longer than between the two of a double click.
         thread::sleep(Duration::from_millis(320));
-        time
+        (is_tracing != answered.is_whole).then_some(time)
     });
     answers.collect()
 }
@@ -60,7 +61,7 @@ fn the_panel_answers_while_a_slow_picture_is_traced() {
     window.click(switch);
     window.settle();
     let idle = answers(&mut window, switch, false);
-    // Minutes of work for a software device.
+    // Ten seconds of work for a software device, or more.
     window.menu(&["Галерея", "Таблица 4.1: кубы", "таблица 4.1: кубы, 100"]);
     window.wait_until("the grid", |now| now.primitives == 100);
     window.click(switch);
@@ -71,6 +72,7 @@ fn the_panel_answers_while_a_slow_picture_is_traced() {
         median(&busy)
     );
     eprintln!("all of the latter: {busy:?}");
+    assert!(busy.len() >= 5, "{busy:?}");
     // The issue asks for 100 ms. xdotool's own start, the validation layers and the two cores, which the software device takes
     // whole, are in the figure too; a window that waited for a picture of many seconds would be far off.
     assert!(median(&busy) < Duration::from_millis(250), "{busy:?}");
