@@ -11,7 +11,7 @@ use zerkalo::reference::{self, LIGHT_BALL};
 use zerkalo::scene::{Camera, Light, Material, Projection, Scene, Solid, SolidKind, gallery};
 use zerkalo::tracer::{KernelFrame, WhittedRecords};
 
-const DEVICE: Limits = Limits { float64: true, max_array_bytes: 1 << 27, max_image_side: 16384 };
+const DEVICE: Limits = Limits { float64: true, max_array_bytes: 1 << 27, max_image_side: 16384, packets: true };
 
 fn exact(scene: &Scene) -> Plan {
     Plan::for_scene(scene, &Wishes::exact(1621, 701), &DEVICE).unwrap()
@@ -377,7 +377,10 @@ fn every_line_is_one_and_says_why() {
 fn a_hierarchy_has_few_boxes_on_top_and_no_more_levels_than_the_kernel_goes_down() {
     assert_eq!(Structure::over(32), Structure::None);
     assert_eq!(Structure::over(33), Structure::Hierarchy { levels: 1 });
-    assert_eq!(Structure::over(256), Structure::Hierarchy { levels: 1 });
+    // One level alone has two groups of boxes at most, more levels have four on top.
+    assert_eq!(Structure::over(128), Structure::Hierarchy { levels: 1 });
+    assert_eq!(Structure::over(129), Structure::Hierarchy { levels: 2 });
+    assert_eq!(Structure::over(2048), Structure::Hierarchy { levels: 2 });
     assert_eq!(Structure::over(1_000_000), Structure::Hierarchy { levels: 5 });
     let most = zerkalo::scene::PRIMITIVE_LIMIT;
     assert_eq!(Structure::over(most), Structure::Hierarchy { levels: Structure::MOST_LEVELS });

@@ -10,8 +10,8 @@ use common::{TestDevice, render};
 use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::gpu::{
-    BindingSet, Buffer, BufferKind, Commands, ComputePipeline, Device, PipelineDescription, Resource, StorageImage,
-    Use, shaders,
+    BindingSet, Buffer, BufferKind, Commands, ComputePipeline, Device, PIXEL_BYTES, PipelineDescription, Resource,
+    StorageImage, Use, shaders,
 };
 use zerkalo::scene::{Light, Primitive, Scene, Solid, SolidKind, gallery};
 use zerkalo::tracer::{
@@ -162,7 +162,7 @@ fn the_pushed_depth_and_the_compiled_one_give_the_same_bits() {
 fn render_with_depths(device: &TestDevice, scene: &Scene, compiled: u32, pushed: u32) -> Frame {
     let [width, height] = SIZE;
     let picture = Resource::from(&Arc::new(StorageImage::new(device, "picture", width, height).unwrap()));
-    let bytes = u64::from(width * height) * StorageImage::PIXEL_BYTES;
+    let bytes = u64::from(width * height) * PIXEL_BYTES;
     let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, bytes).unwrap());
     let read_back = Resource::from(&pixels);
     let pipeline = ComputePipeline::new(

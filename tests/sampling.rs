@@ -12,7 +12,7 @@ use glam::DVec3;
 use scenes::{light, mixed_scene, picture, primitive, sphere};
 use zerkalo::frame::Frame;
 use zerkalo::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, PipelineDescription, Resource,
+    BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, PIXEL_BYTES, PipelineDescription, Resource,
     StorageImage, Use, shaders,
 };
 use zerkalo::scene::{Camera, Material, Projection, Scene, gallery};
@@ -264,7 +264,7 @@ fn enlarge(device: &TestDevice, traced: &[[f32; 4]], traced_size: [u32; 2], size
     let mut upload = Buffer::new(device, "ramp", BufferKind::Upload, traced.len() as u64 * 16).unwrap();
     upload.write(bytemuck::cast_slice(traced)).unwrap();
     let upload = Resource::from(&Arc::new(upload));
-    let bytes = u64::from(size[0] * size[1]) * StorageImage::PIXEL_BYTES;
+    let bytes = u64::from(size[0] * size[1]) * PIXEL_BYTES;
     let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, bytes).unwrap());
     let read_back = Resource::from(&pixels);
     Commands::new(device, "enlarge")

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use common::{TestDevice, render};
 use zerkalo::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, PipelineDescription, Resource,
+    BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, PIXEL_BYTES, PipelineDescription, Resource,
     StorageImage, Use, Validation, shaders,
 };
 use zerkalo::scene::gallery;
@@ -90,7 +90,7 @@ fn an_access_past_the_end_of_a_buffer_is_seen() {
 fn two_copies_without_a_barrier_are_seen_by_the_layer_too() {
     let device = TestDevice::open();
     let picture = Resource::from(&Arc::new(StorageImage::new(&device, "picture", 8, 8).unwrap()));
-    let bytes = 8 * 8 * StorageImage::PIXEL_BYTES;
+    let bytes = 8 * 8 * PIXEL_BYTES;
     let pixels = Resource::from(&Arc::new(Buffer::new(&device, "pixels", BufferKind::Readback, bytes).unwrap()));
     Commands::new(&device, "two copies")
         .unwrap()

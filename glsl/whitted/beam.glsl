@@ -105,10 +105,10 @@ void take(Group group, inout Found found) {
 }
 
 // What is met for sure, at `t` at the latest, ends the search for what lies beyond; or all of it, where that hides the
-// light: it is before the light by more than its rounding, at this sine to the surface.
-void settle(bool is_met, float t, float sine, Beam beam, inout Found found) {
+// light: it is before the light by more than its rounding, at a sine to the surface of rise by run.
+void settle(bool is_met, float t, float rise, float run, Beam beam, inout Found found) {
     bool is_shadow = beam.target_size >= 0.0;
-    bool hides = (found.limit - t) * sine > HIDING_ERROR * (beam.target_size + 2.0 * frame.reach);
+    bool hides = (found.limit - t) * rise > HIDING_ERROR * (beam.target_size + 2.0 * frame.reach) * run;
     float limit = is_shadow ? (hides ? HIDDEN : FAR) : t;
     found.limit = is_met && limit < found.limit ? limit : found.limit;
 }

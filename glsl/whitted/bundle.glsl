@@ -3,7 +3,7 @@
 
 // From within `spread` of the origin, at an angle to `direction` of no more than the one with this sine and cosine.
 struct Bundle {
-    vec3 heading;   // where the rays go, all in all; the zero vector where none searches
+    vec3 heading;   // where the first ray goes: what lies one behind the other is gone through that way
     vec3 origin;
     vec3 direction; // unit
     float spread;   // with all that rounding may put off; FAR where the rays have no common direction
@@ -15,10 +15,11 @@ struct Bundle {
 Bundle bundle_of(Beam beam, bool is_searching) {
     vec4 sum = sum_of_packet(is_searching ? vec4(beam.origin, 1.0) : vec4(0.0));
     Bundle bundle;
-    bundle.heading = sum_of_packet(is_searching ? beam.direction : vec3(0.0));
+    bundle.heading = first_of_packet(beam.direction);
+    vec3 direction = sum_of_packet(is_searching ? beam.direction : vec3(0.0));
     bundle.origin = sum.xyz / max(sum.w, 1.0);
     // Where the rays cancel each other, any vector: the chords below are long then.
-    bundle.direction = bundle.heading / sqrt(max(dot(bundle.heading, bundle.heading), 1e-12));
+    bundle.direction = direction / sqrt(max(dot(direction, direction), 1e-12));
     vec3 from_origin = is_searching ? beam.origin - bundle.origin : vec3(0.0);
     // Twice the sine of half the angle.
     vec3 chord = is_searching ? beam.direction - bundle.direction : vec3(0.0);

@@ -13,6 +13,7 @@ struct WhittedFrame {
     uvec2 sample_place;    // in the pixel, sub-pixels from its top left
     uint samples_before;   // of each pixel, that the picture is the mean of
     float sample_weight;   // of this one in the mean: 1 / (samples_before + 1)
+    uint tile_size;        // pixels, width | height << 16
 };
 layout(push_constant, std430) uniform Push { WhittedFrame frame; };
 

@@ -33,7 +33,8 @@ void TRY_EIGHT(uint group, int entry, bool counts, Beam beam, Bundle bundle, ino
     EIGHT_TIMES(TRY_ONE)
 #endif
     uint place = (eight.key + eight.first_key) & 7u;
-    SETTLE(A_OF_EIGHT(place), B_OF_EIGHT(place), eight.key < eight.end, beam, found);
+    // Among few that takes longer than it saves.
+    if (LEVELS > 1u) SETTLE(A_OF_EIGHT(place), B_OF_EIGHT(place), eight.key < eight.end, beam, found);
     take(eight, found);
 #undef A_OF_EIGHT
 #undef B_OF_EIGHT
@@ -54,11 +55,38 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
             group++;
             if (8u * group >= count) break;
         }
+    } else if (LEVELS == 1u) {
+        uint boxes = eighths(count), first = first_box_row(KIND), second = first + second_group(count);
+        OwnBox own_low, own_high;
+        if (IS_ONLY_KIND) {
+            own_low = held[0];
+            own_high = held[1];
+        } else {
+            own_low = own_box(first);
+            own_high = own_box(second);
+        }
+        uint order, order_of_second;
+        Entries low = enter_boxes(own_low, first, beam, order);
+        Entries high = enter_boxes(own_high, second, beam, order_of_second);
+        bool are_backwards = bundle.heading[order] < 0.0;
+        uint left = (1u << boxes) - 1u;
+        left &= bits_of_packet(boxes_ahead(low, end_of(found)) | boxes_ahead(high, end_of(found)) << 8u);
+        for (;;) {
+            turns++;
+            bool is_leaf = left != 0u;
+            uint place = uint(are_backwards ? findMSB(left) : findLSB(left));
+            place = is_leaf ? place : 0u;
+            left &= ~(1u << place);
+            int entry = place < 8u ? entry_of(low, place) : entry_of(high, place);
+            TRY_EIGHT(place, entry, is_leaf, beam, bundle, found);
+            left &= bits_of_packet(boxes_ahead(low, end_of(found)) | boxes_ahead(high, end_of(found)) << 8u);
+            if (left == 0u) break;
+        }
     } else {
         // Where the boxes of each level begin.
         uint rows[7];
         uint boxes = eighths(count);
-        rows[1] = frame.outlines[KIND] + OUTLINE_ROWS * padded(count);
+        rows[1] = first_box_row(KIND);
         [[unroll]] for (uint h = 2u; h <= 6u; h++) {
             rows[h] = rows[h - 1u] + 2u * padded(boxes);
             boxes = h <= LEVELS ? eighths(boxes) : boxes;
@@ -77,8 +105,9 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
             Entries entries;
             for (;;) {
                 turns++;
-                uint bit = left.x != 0u ? uint(findLSB(left.x)) : 32u + uint(findLSB(left.y));
-                left = left.x != 0u ? uvec2(left.x & (left.x - 1u), left.y) : uvec2(0u, left.y & (left.y - 1u));
+                bool is_low = LEVELS <= 4u || left.x != 0u;
+                uint bit = is_low ? uint(findLSB(left.x)) : 32u + uint(findLSB(left.y));
+                left = is_low ? uvec2(left.x & (left.x - 1u), left.y) : uvec2(0u, left.y & (left.y - 1u));
                 uint level = bit / 8u + 1u; // of the boxes to look at now
                 uint place = (backwards >> level & 1u) != 0u ? 7u - bit % 8u : bit % 8u;
                 uint group = (path >> 3u * level) * 8u + place;
@@ -87,8 +116,9 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
                 uint first = rows[1];
                 [[unroll]] for (uint h = 2u; h <= 6u; h++) first = h <= LEVELS && level == h ? rows[h] : first;
                 uint order;
-                entries = enter_boxes(first + 16u * group, beam, order);
-                leaves = boxes_ahead(entries, end_of(found));
+                first += 16u * group;
+                entries = enter_boxes(own_box(first), first, beam, order);
+                leaves = bits_of_packet(boxes_ahead(entries, end_of(found)));
                 are_leaves_backwards = bundle.heading[order] < 0.0;
                 uint met = are_leaves_backwards ? bitfieldReverse(leaves) >> 24 : leaves;
                 uint backwards_bit = 1u << (level - 1u);
@@ -108,7 +138,7 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
                 place = is_leaf ? place : 0u;
                 leaves &= ~(1u << place);
                 TRY_EIGHT(8u * path + place, entry_of(entries, place), is_leaf, beam, bundle, found);
-                leaves &= boxes_ahead(entries, end_of(found));
+                leaves &= bits_of_packet(boxes_ahead(entries, end_of(found)));
                 if (leaves == 0u) break;
             }
             bool ends = (left.x | left.y) == 0u || turns >= LOOP_TURNS;

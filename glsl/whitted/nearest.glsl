@@ -35,12 +35,11 @@ bool meet(uint slot, Ray ray, Departure departure, out Hit hit) {
     uvec4 first = first_slots();
     bool is_met = false;
     // A kind alone needs not be told from others.
-    bool is_only_kind = int(HAS_SPHERES) + int(HAS_BOXES) + int(HAS_CYLINDERS) + int(HAS_CONES) == 1;
-    if (HAS_SPHERES && (is_only_kind || slot < first.y)) {
+    if (HAS_SPHERES && (IS_ONLY_KIND || slot < first.y)) {
         is_met = meet(sphere(slot), ray, origin, departure.face, hit);
-    } else if (HAS_BOXES && (is_only_kind || slot < first.z)) {
+    } else if (HAS_BOXES && (IS_ONLY_KIND || slot < first.z)) {
         is_met = meet(box(slot - first.y), ray, origin, departure.face, hit);
-    } else if (HAS_CYLINDERS && (is_only_kind || slot < first.w)) {
+    } else if (HAS_CYLINDERS && (IS_ONLY_KIND || slot < first.w)) {
         is_met = meet(cylinder(slot - first.z), ray, origin, departure.face, hit);
     } else if (HAS_CONES) {
         is_met = meet(cone(slot - first.w), ray, origin, departure.face, hit);

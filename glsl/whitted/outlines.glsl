@@ -53,9 +53,9 @@ void settle_sphere(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) 
     // least, and truly by two less.
     bool is_deep = chord.half_squared >= 10.0 * chord.error * chord.radius;
     // The sine of the ray to the surface is half chord by radius; the origin is outside by t times that, or more.
-    float sine = 0.77 * half_chord / chord.radius;
-    bool is_ahead = (chord.ahead - half_chord) * sine > HIDING_ERROR * (4.0 * frame.reach);
-    settle(is_there && is_deep && is_ahead, chord.ahead - 0.77 * half_chord + 3.0 * place_error(), sine, beam, found);
+    float rise = 0.77 * half_chord;
+    bool is_ahead = (chord.ahead - half_chord) * rise > (HIDING_ERROR * 4.0 * frame.reach) * chord.radius;
+    settle(is_there && is_deep && is_ahead, chord.ahead - rise + 3.0 * place_error(), rise, chord.radius, beam, found);
 }
 
 // a: centre; b: half sizes and, where the box is no more than its outline, 1. Both rounded outwards by 2 place errors.
@@ -77,7 +77,7 @@ void settle_box(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
     // The smallest of three, of which one is right.
     vec3 slope = abs(beam.direction);
     float sine = min(slope.x, min(slope.y, slope.z));
-    settle(is_there && is_deep, near + beam.plane_error, sine, beam, found);
+    settle(is_there && is_deep, near + beam.plane_error, sine, 1.0, beam, found);
 }
 
 // a: middle between the ends, radius; b: unit axis, half length.

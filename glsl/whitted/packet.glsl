@@ -6,6 +6,7 @@
 
 #if OCTETS
 #extension GL_KHR_shader_subgroup_shuffle : require
+const bool IN_PACKETS = true;
 
 #define OF_PACKET(TYPE, name, COMBINED)                       \
     TYPE name(TYPE mine) {                                    \
@@ -25,6 +26,7 @@ OF_PACKET(int, greatest_of_packet, max)
 #undef EITHER
 
 bool any_of_packet(bool mine) { return bits_of_packet(uint(mine)) != 0u; }
+vec3 first_of_packet(vec3 mine) { return subgroupShuffle(mine, 0u); }
 
 // Of numbers from 0 on.
 float greatest_of_packet(float mine) { return intBitsToFloat(greatest_of_packet(floatBitsToInt(mine))); }
@@ -33,8 +35,10 @@ float greatest_of_packet(float mine) { return intBitsToFloat(greatest_of_packet(
 #define OWN_ROW(rows, first, stride) texelFetch(rows, int((first) + (stride) * gl_SubgroupInvocationID))
 #define ROW_OF_EIGHT(own, rows, first, stride, k) subgroupShuffle(own, k)
 #else
+const bool IN_PACKETS = false;
 bool any_of_packet(bool mine) { return mine; }
 uint bits_of_packet(uint mine) { return mine; }
+vec3 first_of_packet(vec3 mine) { return mine; }
 #define OWN_ROW(rows, first, stride) vec4(0.0)
 #define ROW_OF_EIGHT(own, rows, first, stride, k) texelFetch(rows, int((first) + (stride) * (k)))
 #endif

@@ -75,6 +75,7 @@ layout(constant_id = 1) const bool HAS_SPHERES = true;
 layout(constant_id = 2) const bool HAS_BOXES = true;
 layout(constant_id = 3) const bool HAS_CYLINDERS = true;
 layout(constant_id = 4) const bool HAS_CONES = true;
+const bool IS_ONLY_KIND = int(HAS_SPHERES) + int(HAS_BOXES) + int(HAS_CYLINDERS) + int(HAS_CONES) == 1;
 layout(constant_id = 8) const bool ARE_BOXES_UPRIGHT = false;
 layout(constant_id = 9) const uint SPHERE_LEVELS = 0u;
 layout(constant_id = 10) const uint BOX_LEVELS = 0u;

@@ -3,9 +3,10 @@
 // Overflow stops at the largest number, so that no sum becomes infinite or, by inf - inf, NaN.
 Real3 limited(Real3 color) { return min(color, Real3(LARGEST)); }
 
-Real3 reflected(Real3 direction, Real3 normal) {
+// Of length 1 to some units in the last place.
+Real3 mirrored(Real3 direction, Real3 normal) {
     precise Real3 result = direction - (2.0 * dot(direction, normal)) * normal;
-    return unit(result);
+    return result;
 }
 
 Real fifth_power(Real x) {
@@ -26,7 +27,7 @@ Real3 towards(Light light, Real3 point, out Real light_distance) {
 Real3 sent_back(Material material, Real3 normal, Real3 ray_direction, Real3 light_direction, Real cosine, Light light) {
     Real highlight = 0.0;
     if (HAS_HIGHLIGHTS) {
-        Real3 mirrored_light = reflected(-light_direction, normal);
+        Real3 mirrored_light = unit(mirrored(-light_direction, normal));
         highlight = fifth_power(max(-dot(mirrored_light, ray_direction), Real(0.0)));
     }
     Real3 received = (material.diffuse * cosine) * material.color + material.specular * highlight;

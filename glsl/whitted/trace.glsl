@@ -1,74 +1,72 @@
-// A primary ray through all its generations.
-
-// The ray through the centre of a pixel counted from the top left.
-Ray primary_ray(uvec2 pixel, uvec2 size, View view) {
-    // Twice the pixel centre is a whole number: exact.
-    precise Real x = Real(2u * pixel.x + 1u) / Real(2u * size.x);
-    precise Real y = Real(2u * (size.y - 1u - pixel.y) + 1u) / Real(2u * size.y);
-    // x right, y up, in [0, 1]^2: what the camera formula was written for. The course feeds it [-1, 1]^2.
-    bool is_course = view.window_low < 0.0;
-    precise Real window_x = is_course ? 2.0 * x - 1.0 : x;
-    precise Real window_y = is_course ? 2.0 * y - 1.0 : y;
-    precise Real to_left = (1.0 - 2.0 * window_x) * view.half_width;
-    precise Real upward = (2.0 * window_y - 1.0) * view.half_height;
-    precise Real3 direction = view.left * to_left + view.up * upward + view.ahead;
-    return Ray(view.position, view.position_error, unit(direction));
-}
-
-// Where the ray meets the nearest ball of a light, and its intensity; at LARGEST, nothing.
-Real light_ball_ahead(Ray ray, out Real3 intensity) {
-    intensity = Real3(0.0);
-    Real t = LARGEST;
-    uint i = 0u;
-    for (;;) {
-        turns++;
-        Light light = light(i);
-        Hit ball;
-        bool is_met = meet(Sphere(light.position, light.ball_radius), ray, FREE, CURVED, ball);
-        bool is_seen = i < frame.light_count && is_met && ball.t < t;
-        if (is_seen) intensity = light.intensity;
-        t = is_seen ? ball.t : t;
-        i++;
-        if (BALLS == 1u || !(i < frame.light_count)) break;
-    }
-    return t;
-}
+// Primary rays through all their generations.
 
 // What a ray is cast for.
 const uint ENDED = 0u;
 const uint TO_NEAREST = 1u;
 const uint TO_LIGHT = 2u;
+const uint REFLECTED = 3u; // to the nearest, and not yet made of the hit that it leaves
 
 // A bound for what lies at or before t, from the exact t.
 float up_to(Real t) { return float(min(t, Real(FAR))) * (1.0 + 4.0 * FLOAT_ROUNDOFF); }
 
-// Linear RGB. Every turn of the loop looks for one candidate on one ray and solves that: rays of all generations, to the
-// nearest hit and to lights, go the same way, so that neighbours in different stages do not wait for each other, and one
-// exact solve stands in the code. `is_there`: whether the ray counts.
-Real3 trace(Ray ray, bool is_there, Real3 background) {
-    Real3 color = Real3(0.0);
-    Real weight = 1.0;
-    uint generation = 0u;
-    uint purpose = is_there ? TO_NEAREST : ENDED;
+// What a primary ray becomes.
+struct Path {
+    Real3 color;     // linear RGB, of the generations that are over
+    Real weight;     // in it, of the present one
+    uint generation;
+};
+
+// A generation is over that brings `emitted`. Tells what the next ray is cast for.
+uint next_generation(Real3 emitted, bool is_hit, Real specular, inout Path path) {
+    path.color = limited(path.color + path.weight * emitted);
+    path.weight *= specular;
+    path.generation++;
+    bool goes_further = is_hit && path.weight > Real(frame.least_weight) && path.generation < frame.depth;
+    return HAS_REFLECTIONS && goes_further ? REFLECTED : ENDED;
+}
+
+// Of an invocation's pixels.
+struct Traced {
+    Real3 colors[MOST_PIXELS]; // linear RGB
+    uint begun;                // how many; the last may have been given up
+};
+
+void put(uint index, Real3 color, inout Traced traced) {
+#define PUT_ONE(k) \
+    if (k < PIXELS && index == k) traced.colors[k] = color;
+    PUT_ONE(0u) PUT_ONE(1u) PUT_ONE(2u) PUT_ONE(3u)
+#undef PUT_ONE
+}
+
+// Rays of all generations, to the nearest hit and to lights, go the same way, so that neighbours in different stages do not
+// wait for each other, and one exact solve stands in the code. The search, which every ray needs, is the inner loop; what
+// only a ray with a candidate or a hit needs is gone through when some ray of the packet is there. A packet whose rays all
+// came to their end goes on to its next pixels in that loop too: at the end of each pixel the rest would be gone through
+// for nobody.
+Traced trace(View view) {
+    Traced traced;
+    traced.begun = 0u;
+    Path path = Path(Real3(0.0), 1.0, 0u);
+    uint purpose = ENDED;
+    bool is_packet_at_rest = true;
+    Ray ray = Ray(view.position, view.position_error, view.ahead);
     Departure departure = Departure(NOTHING, CURVED, false);
-    Real3 ball_intensity = Real3(0.0);
-    Real ball_t = LARGEST;
-    if (BALLS > 0u) ball_t = light_ball_ahead(ray, ball_intensity);
+    bool may_see_ball = false; // a primary ray that may
 
     // The nearest hit so far of the ray, and then what its lights add up to.
     Hit nearest;
     Material matter;
-    Real3 emitted, ray_direction = ray.direction;
+    Real3 emitted = Real3(0.0), ray_direction = ray.direction;
     uint light_index = 0u; // of the first light that has not been tried
     Light lamp;
     // The only one is read once.
-    if (LIGHTS == 1u) lamp = light(0u);
+    if (LIGHTS == 1u || BALLS == 1u) lamp = light(0u);
     Real light_distance;
-    Real3 light_direction;
     Real3 sent; // back along the ray, of what the lamp gives
     bool is_hit = false;
 
     // Where the search stands.
+    hold_boxes();
     float limit = FAR;
     uint after_key = 0u;
     int after_group = -1;
@@ -76,55 +74,105 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
 
     for (;;) {
         turns++;
-        Beam beam = beam_of(ray);
-        beam.skipped = departure.slot;
-        beam.after_key = after_key;
-        beam.after_group = after_group;
-        bool is_shadow_ray = HAS_SHADOWS && purpose == TO_LIGHT;
-        beam.target_size = is_shadow_ray ? float(min(largest_component(lamp.position), Real(FAR))) : -1.0;
-        Found found = next_candidate(beam, limit, purpose != ENDED && !is_own_due);
-        bool is_hidden = is_shadow_ray && !is_own_due && found.limit == HIDDEN;
-        uint last_key = uint(floatBitsToInt(limit)) | 7u;
-        bool is_candidate = is_own_due || (found.key <= last_key && !is_hidden);
+        Found found;
+        bool is_shadow_ray, is_candidate, is_unshaded;
+        for (;;) {
+            turns++;
+            bool starts = is_packet_at_rest && traced.begun < PIXELS;
+            bool is_reflected = HAS_REFLECTIONS && purpose == REFLECTED;
+            if (starts || is_reflected) {
+                Real3 direction;
+                if (starts) {
+                    uvec2 pixel = tile_pixel(traced.begun);
+                    direction = primary_direction(pixel, view);
+                    purpose = is_there(pixel) ? TO_NEAREST : ENDED;
+                    if (traced.begun > 0u) put(traced.begun - 1u, path.color, traced);
+                    traced.begun++;
+                    path = Path(Real3(0.0), 1.0, 0u);
+                    departure = Departure(NOTHING, CURVED, false);
+                } else if (HAS_REFLECTIONS) {
+                    direction = mirrored(ray_direction, nearest.normal);
+                    purpose = TO_NEAREST;
+                }
+                direction = unit(direction);
+                ray = Ray(starts ? view.position : nearest.point, starts ? view.position_error : Real3(0.0), direction);
+                if (BALLS > 0u) may_see_ball = starts && may_meet_a_ball(ray, lamp);
+                is_hit = false;
+                limit = FAR;
+                after_key = 0u;
+                after_group = -1;
+                is_own_due = departure.inside;
+            }
+
+            Beam beam = beam_of(ray);
+            beam.skipped = departure.slot;
+            beam.after_key = after_key;
+            beam.after_group = after_group;
+            is_shadow_ray = HAS_SHADOWS && purpose == TO_LIGHT;
+            beam.target_size = is_shadow_ray ? float(min(largest_component(lamp.position), Real(FAR))) : -1.0;
+            found = next_candidate(beam, limit, purpose != ENDED && !is_own_due);
+            bool is_hidden = is_shadow_ray && !is_own_due && found.limit == HIDDEN;
+            uint last_key = uint(floatBitsToInt(limit)) | 7u;
+            is_candidate = purpose != ENDED && (is_own_due || (found.key <= last_key && !is_hidden));
+
+            // A ray that meets nothing more may end its generation at once.
+            bool is_through = purpose != ENDED && !is_candidate;
+            bool has_lights_left = LIGHTS > 1u && light_index < frame.light_count;
+            is_unshaded = is_through && (is_shadow_ray ? has_lights_left : is_hit || (BALLS > 0u && may_see_ball));
+            if (is_through && is_shadow_ray && !is_hidden) emitted = limited(emitted + sent);
+            if (is_through && !is_shadow_ray && !is_hit) emitted = view.background;
+            if (is_through && !is_unshaded) purpose = next_generation(emitted, is_hit, matter.specular, path);
+
+            const uint WORK = 1u, RAY = 2u;
+            uint there_is = (is_candidate || is_unshaded ? WORK : 0u) | (purpose != ENDED ? RAY : 0u);
+            there_is = bits_of_packet(there_is);
+            is_packet_at_rest = there_is == 0u;
+            bool goes_on = there_is == RAY || (is_packet_at_rest && traced.begun < PIXELS);
+            // Rays that go each for itself take a turn of all: left by one after another, this loop is what Mesa 22.3 draws
+            // scenes with several lights wrong from.
+            if (!IN_PACKETS || !goes_on || turns >= LOOP_TURNS) break;
+        }
+
+        // What the ray meets where it meets no solid before.
+        Real3 seen = view.background;
+        Real seen_t = LARGEST;
+        if (BALLS > 0u) {
+            Real3 intensity;
+            Real ball_t = ball_ahead(ray, lamp, intensity);
+            if (may_see_ball && !is_shadow_ray && ball_t < LARGEST) {
+                seen = intensity;
+                seen_t = ball_t;
+            }
+        }
 
         Hit hit;
         uint found_slot = 8u * uint(found.group) + (found.key & 7u);
         uint slot = is_own_due ? departure.slot : (is_candidate ? found_slot : 0u);
         bool is_met = meet(slot, ray, departure, hit) && is_candidate;
         Material met = material(slot);
-        if (purpose == TO_NEAREST && is_met &&
+        if (!is_shadow_ray && is_met && (BALLS == 0u || hit.t <= seen_t) &&
             (!is_hit || is_nearer(hit, met.primitive, nearest, matter.primitive, ray))) {
             nearest = hit;
             matter = met;
             is_hit = true;
             limit = up_to(hit.t);
         }
-        if (HAS_SHADOWS) {
-            bool is_met_before = is_shadow_ray && is_met && is_before(hit, ray, lamp.position, light_distance);
-            is_hidden = is_hidden || is_met_before;
-        }
+        bool is_hidden = HAS_SHADOWS && is_shadow_ray && is_met && is_before(hit, ray, lamp.position, light_distance);
         // Whether another candidate may come before what is known.
-        last_key = uint(floatBitsToInt(limit)) | 7u;
+        uint last_key = uint(floatBitsToInt(limit)) | 7u;
         bool goes_on = is_candidate && !is_hidden && (is_own_due || found.next_key <= last_key);
         after_key = is_own_due ? 0u : found.key;
         after_group = is_own_due ? -1 : found.group;
-        is_own_due = false;
+        is_own_due = is_own_due && !is_candidate;
 
         // The ray has come to its end: what it brings, and what comes next.
-        bool is_done = purpose != ENDED && !goes_on;
-        bool is_last = is_done && !is_shadow_ray && (!is_hit || (generation == 0u && ball_t < nearest.t));
-        if (is_done && is_shadow_ray && !is_hidden) emitted = limited(emitted + sent);
-        if (is_last) {
-            Real3 seen = generation == 0u && ball_t < LARGEST ? ball_intensity : background;
-            color = limited(color + weight * seen);
-        }
+        bool is_done = is_unshaded || (is_candidate && !goes_on);
+        if (is_candidate && is_done && is_shadow_ray && !is_hidden) emitted = limited(emitted + sent);
         if (is_done && !is_shadow_ray) {
+            emitted = is_hit ? matter.ambient * matter.color : seen;
+            departure = Departure(nearest.slot, nearest.face, nearest.inside);
+            ray_direction = ray.direction;
             light_index = 0u;
-            if (!is_last) {
-                departure = Departure(nearest.slot, nearest.face, nearest.inside);
-                emitted = matter.ambient * matter.color;
-                ray_direction = ray.direction;
-            }
         }
 
         // On to the next light that a shadow ray is worth. A packet's rays stay together here, and read no light beyond the
@@ -132,7 +180,7 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
         // 22.3 drew tests/scenes/three_lights.toml wrong. Either change alone cures that; what it came from is not known.
         bool is_lit = false;
         if (LIGHTS > 0u) {
-            bool is_seeking = is_done && !is_last && light_index < frame.light_count;
+            bool is_seeking = is_done && is_hit && light_index < frame.light_count;
             for (;;) {
                 turns++;
                 Light next = lamp;
@@ -144,12 +192,12 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
                 bool shines = is_seeking && distance_to_next > 0.0 && cosine > 0.0;
                 Real3 sent_by_next = sent_back(matter, nearest.normal, ray_direction, direction_to_next, cosine, next);
                 // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
-                bool is_faint = weight * largest_component(sent_by_next) <= Real(frame.least_shadowed);
+                bool is_faint = path.weight * largest_component(sent_by_next) <= Real(frame.least_shadowed);
                 if (HAS_SHADOWS && shines && !is_faint) {
                     is_lit = true;
                     lamp = next;
                     light_distance = distance_to_next;
-                    light_direction = direction_to_next;
+                    ray = Ray(nearest.point, Real3(0.0), direction_to_next);
                     sent = sent_by_next;
                 } else if (shines) {
                     emitted = limited(emitted + (is_faint ? Real3(0.5) * sent_by_next : sent_by_next));
@@ -159,30 +207,18 @@ Real3 trace(Ray ray, bool is_there, Real3 background) {
                 if (LIGHTS == 1u || !any_of_packet(is_seeking)) break;
             }
         }
-
-        if (is_done) {
-            is_own_due = departure.inside;
-            after_key = 0u;
-            after_group = -1;
-        }
         if (is_lit) {
-            ray = Ray(nearest.point, Real3(0.0), light_direction);
             purpose = TO_LIGHT;
             limit = up_to(light_distance);
+            after_key = 0u;
+            after_group = -1;
+            is_own_due = departure.inside;
         } else if (is_done) {
-            if (!is_last) color = limited(color + weight * emitted);
-            purpose = ENDED;
-            if (HAS_REFLECTIONS) {
-                weight *= matter.specular;
-                generation++;
-                bool goes_further = weight > Real(frame.least_weight) && generation < frame.depth && !is_last;
-                purpose = goes_further ? TO_NEAREST : ENDED;
-                ray = Ray(nearest.point, Real3(0.0), reflected(ray_direction, nearest.normal));
-                limit = FAR;
-                is_hit = false;
-            }
+            purpose = next_generation(emitted, is_hit, matter.specular, path);
         }
-        if (!(any_of_packet(purpose != ENDED) && turns < LOOP_TURNS)) break;
+        is_packet_at_rest = !any_of_packet(purpose != ENDED);
+        if ((is_packet_at_rest && traced.begun == PIXELS) || turns >= LOOP_TURNS) break;
     }
-    return color;
+    put(traced.begun - 1u, path.color, traced);
+    return traced;
 }

@@ -90,7 +90,7 @@ pub fn run(args: &PlanArgs) -> Result<()> {
     print_line(&format!("{} at {width}x{height} on {device}", args.scene.escape_debug()))?;
     plan.lines().iter().try_for_each(|Line { what, choice, why, saves }| {
         let saves = saves.as_ref().map(|saves| format!("; saves {saves}")).unwrap_or_default();
-        print_line(&format!("  {what:<13} {choice:<11} {why}{saves}"))
+        print_line(&format!("  {what:<14} {choice:<11} {why}{saves}"))
     })
 }
 

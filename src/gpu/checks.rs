@@ -9,7 +9,7 @@ use super::commands::Commands;
 use super::device::Device;
 use super::error::GpuError;
 use super::instance::Validation;
-use super::memory::{Buffer, BufferKind, StorageImage};
+use super::memory::{Buffer, BufferKind, PIXEL_BYTES, StorageImage};
 use super::messages::Message;
 use super::pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
 use super::{Use, shaders};
@@ -107,7 +107,7 @@ fn wait_for_what_the_stage_never_does(device: &Arc<Device>) -> Result<(), GpuErr
 fn copy_twice_to_one_buffer(device: &Arc<Device>) -> Result<(), GpuError> {
     const SIDE: u32 = 8;
     let picture = Resource::from(&Arc::new(StorageImage::new(device, "mistake: picture", SIDE, SIDE)?));
-    let bytes = u64::from(SIDE * SIDE) * StorageImage::PIXEL_BYTES;
+    let bytes = u64::from(SIDE * SIDE) * PIXEL_BYTES;
     let pixels = Resource::from(&Arc::new(Buffer::new(device, "mistake: pixels", BufferKind::Readback, bytes)?));
     Commands::new(device, "mistake: two copies")?.run(|recorder| {
         recorder.make_ready(&picture, Use::CopySource);

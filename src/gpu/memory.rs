@@ -22,6 +22,8 @@ pub enum BufferKind {
     Records,
     /// As [`BufferKind::Uniform`], read by shaders as texels of four numbers; of any length that the device allows.
     Texels(Texel),
+    /// Written by shaders and read again by them and by copies: a picture, pixels of four `f32`.
+    Pixels,
     /// Written by copies, read by the host.
     Readback,
     /// Written by the host, read by copies.
@@ -55,6 +57,11 @@ impl BufferKind {
             Self::Uniform => vk::BufferUsageFlags::UNIFORM_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
             Self::Storage | Self::Records => vk::BufferUsageFlags::STORAGE_BUFFER,
             Self::Texels(_) => vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER | vk::BufferUsageFlags::TRANSFER_DST,
+            Self::Pixels => {
+                vk::BufferUsageFlags::STORAGE_BUFFER
+                    | vk::BufferUsageFlags::TRANSFER_SRC
+                    | vk::BufferUsageFlags::TRANSFER_DST
+            }
             Self::Readback => vk::BufferUsageFlags::TRANSFER_DST,
             Self::Upload => vk::BufferUsageFlags::TRANSFER_SRC,
         }
@@ -64,6 +71,7 @@ impl BufferKind {
         match self {
             Self::Uniform | Self::Records | Self::Texels(_) | Self::Upload => MemoryLocation::CpuToGpu,
             Self::Storage | Self::Readback => MemoryLocation::GpuToCpu,
+            Self::Pixels => MemoryLocation::GpuOnly,
         }
     }
 
@@ -73,7 +81,7 @@ impl BufferKind {
     }
 }
 
-/// A buffer that the host has mapped.
+/// A buffer; the host has mapped it, unless it is of [`BufferKind::Pixels`].
 pub struct Buffer {
     pub(super) raw: vk::Buffer,
     /// Of [`BufferKind::Texels`]; else null.
@@ -160,6 +168,9 @@ impl Drop for Buffer {
     }
 }
 
+/// Bytes of a pixel of four `f32`.
+pub const PIXEL_BYTES: u64 = 16;
+
 /// A two-dimensional `rgba32f` image that kernels write and read.
 pub struct StorageImage {
     pub(super) raw: vk::Image,
@@ -172,8 +183,6 @@ pub struct StorageImage {
 }
 
 impl StorageImage {
-    /// Bytes of one `rgba32f` pixel.
-    pub const PIXEL_BYTES: u64 = 16;
     /// Every Vulkan device must offer this format for storage images and as the source of blits.
     const FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 

@@ -36,7 +36,7 @@ pub use error::GpuError;
 pub use hazards::Use;
 pub use in_flight::InFlight;
 pub use instance::{Instance, Layer, Validation, validation_layer};
-pub use memory::{Buffer, BufferKind, StorageImage, Texel};
+pub use memory::{Buffer, BufferKind, PIXEL_BYTES, StorageImage, Texel};
 pub use messages::{Allowance, Message, Messages};
 pub use physical::{DeviceDescription, DeviceKind, choose};
 pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};

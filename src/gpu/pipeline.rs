@@ -22,6 +22,8 @@ pub enum BindingKind {
     Records,
     /// A buffer that is read texel by texel.
     Texels(Texel),
+    /// A storage buffer of pixels that is written, or read and written.
+    Pixels,
     /// A storage image that is written, or read and written.
     Picture,
     /// A storage image that is only read.
@@ -32,7 +34,7 @@ impl BindingKind {
     fn descriptor_type(self) -> vk::DescriptorType {
         match self {
             Self::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
-            Self::Storage | Self::Records => vk::DescriptorType::STORAGE_BUFFER,
+            Self::Storage | Self::Records | Self::Pixels => vk::DescriptorType::STORAGE_BUFFER,
             Self::Texels(_) => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
             Self::Picture | Self::PictureRead => vk::DescriptorType::STORAGE_IMAGE,
         }
@@ -41,7 +43,7 @@ impl BindingKind {
     fn use_(self) -> Use {
         match self {
             Self::Uniform | Self::Records | Self::Texels(_) | Self::PictureRead => Use::ShaderRead,
-            Self::Storage | Self::Picture => Use::ShaderWrite,
+            Self::Storage | Self::Pixels | Self::Picture => Use::ShaderWrite,
         }
     }
 }
@@ -208,6 +210,7 @@ impl Resource {
                 BindingKind::Uniform => buffer.kind == BufferKind::Uniform,
                 BindingKind::Storage => buffer.kind == BufferKind::Storage,
                 BindingKind::Records => buffer.kind == BufferKind::Records,
+                BindingKind::Pixels => buffer.kind == BufferKind::Pixels,
                 BindingKind::Texels(texel) => buffer.kind == BufferKind::Texels(texel),
                 BindingKind::Picture | BindingKind::PictureRead => false,
             },

@@ -8,7 +8,7 @@ use ash::vk;
 use super::device::Device;
 use super::error::GpuError;
 use super::hazards::{Hazards, Use};
-use super::memory::{COLOR, StorageImage};
+use super::memory::{COLOR, PIXEL_BYTES};
 use super::messages::Message;
 use super::pipeline::{BindingSet, ComputePipeline, Resource};
 use super::timer::Timer;
@@ -161,28 +161,33 @@ impl<'h> Recorder<'h> {
         }
     }
 
-    /// Copies the image's top left `width`×`height` pixels to the buffer, rows one after another.
+    /// Copies `width`×`height` pixels to the buffer, rows one after another: the top left ones of an image, or the first
+    /// of a buffer.
     ///
     /// # Panics
     /// One of them has no room for that.
     pub fn copy_to_buffer(&mut self, from: &Resource, to: &Resource, width: u32, height: u32) {
-        let (Resource::Image(image), Resource::Buffer(buffer)) = (from, to) else {
-            return self.report(format!("cannot copy '{}' to '{}': not an image and a buffer", from.name(), to.name()));
+        let Resource::Buffer(target) = to else {
+            return self.report(format!("cannot copy '{}' to '{}': that is no buffer", from.name(), to.name()));
         };
-        assert!(width <= image.width() && height <= image.height());
-        assert!(u64::from(width) * u64::from(height) * StorageImage::PIXEL_BYTES <= buffer.size());
+        let bytes = u64::from(width) * u64::from(height) * PIXEL_BYTES;
+        assert!(bytes <= target.size());
         self.note_use(from, "copy", Use::CopySource);
         self.note_use(to, "copy", Use::CopyTarget);
-        let region = image_region(width, height);
-        // SAFETY: the command buffer is being recorded; the region lies within both.
-        unsafe {
-            self.device.raw.cmd_copy_image_to_buffer(
-                self.buffer,
-                image.raw,
-                image_layout(Use::CopySource),
-                buffer.raw,
-                &[region],
-            );
+        let raw = &self.device.raw;
+        match from {
+            Resource::Image(image) => {
+                assert!(width <= image.width() && height <= image.height());
+                let (layout, region) = (image_layout(Use::CopySource), image_region(width, [0, 0], [width, height]));
+                // SAFETY: the command buffer is being recorded; the region lies within both.
+                unsafe { raw.cmd_copy_image_to_buffer(self.buffer, image.raw, layout, target.raw, &[region]) };
+            }
+            Resource::Buffer(buffer) => {
+                assert!(bytes <= buffer.size());
+                let region = vk::BufferCopy::default().size(bytes);
+                // SAFETY: as above.
+                unsafe { raw.cmd_copy_buffer(self.buffer, buffer.raw, target.raw, &[region]) };
+            }
         }
     }
 
@@ -191,17 +196,36 @@ impl<'h> Recorder<'h> {
     /// # Panics
     /// One of them has no room for that.
     pub fn copy_to_image(&mut self, from: &Resource, to: &Resource, width: u32, height: u32) {
+        self.copy_parts_to_image(from, to, width, [([0, 0], [width, height])]);
+    }
+
+    /// Copies parts of a picture, each its first pixel and its size, from the buffer, which holds the picture in rows of
+    /// `width` pixels, to their places in the image. No barrier stands between them, so they must not overlap.
+    ///
+    /// # Panics
+    /// One of the two has no room for a part.
+    pub fn copy_parts_to_image(
+        &mut self,
+        from: &Resource,
+        to: &Resource,
+        width: u32,
+        parts: impl IntoIterator<Item = ([u32; 2], [u32; 2])>,
+    ) {
         let (Resource::Buffer(buffer), Resource::Image(image)) = (from, to) else {
             return self.report(format!("cannot copy '{}' to '{}': not a buffer and an image", from.name(), to.name()));
         };
-        assert!(width <= image.width() && height <= image.height());
-        assert!(u64::from(width) * u64::from(height) * StorageImage::PIXEL_BYTES <= buffer.size());
+        let region = |([x, y], [part_width, part_height]): ([u32; 2], [u32; 2])| {
+            let (right, bottom) = (x + part_width, y + part_height);
+            assert!(right <= width.min(image.width()) && bottom <= image.height());
+            assert!(u64::from(width) * u64::from(bottom) * PIXEL_BYTES <= buffer.size());
+            image_region(width, [x, y], [part_width, part_height])
+        };
+        let regions: Vec<_> = parts.into_iter().map(region).collect();
         self.note_use(from, "copy", Use::CopySource);
         self.note_use(to, "copy", Use::CopyTarget);
         let layout = image_layout(Use::CopyTarget);
-        let region = image_region(width, height);
-        // SAFETY: the command buffer is being recorded; the region lies within both.
-        unsafe { self.device.raw.cmd_copy_buffer_to_image(self.buffer, buffer.raw, image.raw, layout, &[region]) };
+        // SAFETY: the command buffer is being recorded; the regions lie within both.
+        unsafe { self.device.raw.cmd_copy_buffer_to_image(self.buffer, buffer.raw, image.raw, layout, &regions) };
     }
 
     /// Writes parts of the buffer, each its offset and its bytes, in their turn among the commands. No barrier stands
@@ -233,6 +257,18 @@ impl<'h> Recorder<'h> {
         let layout = image_layout(Use::CopyTarget);
         // SAFETY: the command buffer is being recorded.
         unsafe { self.device.raw.cmd_clear_color_image(self.buffer, image.raw, layout, &color, &[COLOR]) };
+    }
+
+    /// Sets every bit of the image or the buffer to 0.
+    pub fn zero(&mut self, target: &Resource) {
+        match target {
+            Resource::Image(_) => self.clear(target, [0.0; 4]),
+            Resource::Buffer(buffer) => {
+                self.note_use(target, "fill", Use::CopyTarget);
+                // SAFETY: the command buffer is being recorded.
+                unsafe { self.device.raw.cmd_fill_buffer(self.buffer, buffer.raw, 0, vk::WHOLE_SIZE, 0) };
+            }
+        }
     }
 
     /// The time of what is recorded between this and [`Recorder::stop`] is the timer's.
@@ -278,9 +314,12 @@ impl<'h> Recorder<'h> {
     }
 }
 
-/// The image's top left `width`×`height` pixels, and a buffer's rows without gaps.
-fn image_region(width: u32, height: u32) -> vk::BufferImageCopy {
+/// A part of the image, and the same of a buffer with rows of `row` pixels.
+fn image_region(row: u32, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> vk::BufferImageCopy {
     vk::BufferImageCopy::default()
+        .buffer_offset((u64::from(y) * u64::from(row) + u64::from(x)) * PIXEL_BYTES)
+        .buffer_row_length(row)
+        .image_offset(vk::Offset3D { x: x as i32, y: y as i32, z: 0 })
         .image_subresource(vk::ImageSubresourceLayers {
             aspect_mask: vk::ImageAspectFlags::COLOR,
             mip_level: 0,

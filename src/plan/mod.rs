@@ -17,11 +17,13 @@ mod precision;
 mod reason;
 mod solids;
 mod tiling;
+mod turns;
 
 pub use budget::{Bounds, Cuts};
 pub use precision::Precision;
 pub use reason::{Line, Reason};
 pub use tiling::tile_side;
+pub use turns::{CPU_LOOP_TURNS, pixels_in_turn};
 
 use glam::DVec3;
 use thiserror::Error;
@@ -59,11 +61,13 @@ pub struct Limits {
     pub max_array_bytes: u64,
     /// Largest picture side in one tile, pixels.
     pub max_image_side: u32,
+    /// Whether eight invocations go together and can hand each other numbers.
+    pub packets: bool,
 }
 
 impl Limits {
     /// What every Vulkan device has (the specification's table of required limits).
-    pub const PROMISED: Self = Self { float64: false, max_array_bytes: 1 << 20, max_image_side: 4096 };
+    pub const PROMISED: Self = Self { float64: false, max_array_bytes: 1 << 20, max_image_side: 4096, packets: false };
 }
 
 /// Why there is no plan. Each is one line, and the input's fault.
@@ -98,8 +102,11 @@ pub enum Structure {
 }
 
 impl Structure {
-    /// Up to so many solids of a kind a ray looks at each of them.
+    /// Up to so many solids of a kind a ray looks at each of them, or at so many boxes of the topmost of several levels.
     pub const BREAK_EVEN: usize = 32;
+
+    /// One level alone has at most so many boxes: two groups, which every search enters.
+    pub const MOST_ALONE: usize = 2 * Self::GROUP;
 
     /// Solids in a box, and boxes in one of the level above.
     pub const GROUP: usize = 8;
@@ -111,7 +118,8 @@ impl Structure {
     pub fn over(solids: usize) -> Self {
         let mut boxes = solids;
         let mut levels = 0;
-        while boxes > Self::BREAK_EVEN && levels < Self::MOST_LEVELS {
+        let most = |levels| if levels == 1 { Self::MOST_ALONE } else { Self::BREAK_EVEN };
+        while boxes > most(levels) && levels < Self::MOST_LEVELS {
             boxes = boxes.div_ceil(Self::GROUP);
             levels += 1;
         }
@@ -151,6 +159,8 @@ pub struct Plan {
     pub structures: Decision<[Structure; 4]>,
     /// Pixels of a workgroup along x and y.
     pub workgroup: Decision<[u32; 2]>,
+    /// That an invocation traces, one after another.
+    pub pixels: Decision<u32>,
     /// Side of what one submission traces, pixels.
     pub tile_side: Decision<u32>,
     /// The allowed error.
@@ -202,6 +212,7 @@ impl Plan {
             precision,
             structures: Structure::decide(counts),
             workgroup: Decision { choice: WORKGROUP, reason: Reason::SquareWorkgroup },
+            pixels: turns::decide(scene, generations.choice, limits),
             tile_side: tiling::decide(scene, generations.choice, limits),
             generations,
             error: wishes.error,

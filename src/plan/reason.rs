@@ -86,6 +86,9 @@ pub enum Reason {
         break_even: usize,
     },
     SquareWorkgroup,
+    NoPackets,
+    PixelsInTurn,
+    LongPixels,
     LightTiles,
     /// `largest`: side of a tile without that, pixels.
     HeavyTiles {
@@ -167,6 +170,9 @@ impl fmt::Display for Reason {
                 write!(f, "{solids} solids of a kind, more than the {break_even} that are looked at one by one")
             }
             Self::SquareWorkgroup => write!(f, "as many pixels as a wave has lanes, near each other"),
+            Self::NoPackets => write!(f, "invocations do not come in packets that go together"),
+            Self::PixelsInTurn => write!(f, "a packet of rays that have ended goes on to its next pixels"),
+            Self::LongPixels => write!(f, "a pixel may take as long as the driver lets a loop go on"),
             Self::LightTiles => write!(f, "one submission can trace that much within a second or two"),
             Self::HeavyTiles { largest } => {
                 write!(
@@ -227,6 +233,7 @@ impl Plan {
         lines.push(Line::new("precision", self.precision.choice.name(), &self.precision, None));
         let [width, height] = self.workgroup.choice;
         lines.push(Line::new("workgroup", format!("{width}x{height}"), &self.workgroup, None));
+        lines.push(Line::new("pixels in turn", self.pixels.choice, &self.pixels, None));
         let side = self.tile_side.choice;
         lines.push(Line::new("tiles", format!("{side}x{side}"), &self.tile_side, None));
         lines.extend(self.shadow_cut_line());

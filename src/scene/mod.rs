@@ -3,6 +3,7 @@
 //! World frame: right-handed, y up, as the course work uses it. Lengths are in world units, angles in degrees
 //! (the unit is in the field's name), colours and intensities are linear RGB.
 
+mod bounding_sphere;
 mod camera;
 mod edit;
 mod error;
@@ -14,6 +15,7 @@ mod primitive;
 mod text;
 mod validate;
 
+pub use bounding_sphere::BoundingSphere;
 pub use camera::{Camera, Projection};
 pub use edit::{COURSE_PRIMITIVE_LIMIT, TooManyPrimitives, world_from_box};
 pub use error::SceneError;

@@ -63,7 +63,7 @@ impl Canvas {
         let kernel = LiveKernel::new(device, Kernel::Course, shader)?;
         Ok(Self {
             images: images(device, size)?,
-            sweep: Sweep::new(LiveKernel::groups(size)),
+            sweep: Sweep::new(LiveKernel::blocks(size)),
             kernel,
             kind: Kernel::Course,
             course_shader: shader.clone(),
@@ -124,7 +124,10 @@ impl Canvas {
     fn replace_kernel(&mut self, kernel: LiveKernel, kind: Kernel) {
         self.kernel = kernel;
         self.kind = kind;
-        self.images.iter_mut().for_each(|image| image.set = None);
+        for image in &mut self.images {
+            image.set = None;
+            self.dropped.extend(image.pixels.take());
+        }
         self.timing.pace = Pace::new();
         self.forget_scene();
     }
@@ -170,6 +173,7 @@ impl Canvas {
         };
         for old in std::mem::replace(&mut self.images, images) {
             in_flight.forget(&old.resource);
+            old.pixels.iter().for_each(|pixels| in_flight.forget(pixels));
         }
         if let Some(old) = std::mem::replace(&mut self.enlarging, enlarging) {
             in_flight.forget(&old.picture);
@@ -183,7 +187,7 @@ impl Canvas {
         (self.current, self.next) = (None, None);
         self.is_in_place = true;
         self.timing.last_took = None;
-        self.sweep = Sweep::new(LiveKernel::groups(self.sampling.traced_size(self.size)));
+        self.sweep = Sweep::new(LiveKernel::blocks(self.sampling.traced_size(self.size)));
         self.timing.first_of_interest = self.begun + 1;
     }
 
@@ -291,9 +295,10 @@ impl Canvas {
         let timer = self.timing.timer(place);
         recorder.labelled("trace", |recorder| {
             timer.iter().for_each(|timer| recorder.start(timer));
-            // After the timer's start: with a framebuffer around, lavapipe takes a time only at the next barrier.
-            recorder.make_ready(&self.images[target].resource, Use::ShaderWrite);
+            // The barrier comes after the timer's start: with a framebuffer around, lavapipe takes a time only at the next.
+            self.images[target].make_ready(recorder);
             self.kernel.record(recorder, &set, scene, self.sample, &parts);
+            self.images[target].bring_up_to_date(recorder, &parts);
             if is_last {
                 self.shown = target;
             }
@@ -328,7 +333,7 @@ impl Canvas {
         self.dropped.extend(begun.dropped);
         for image in &mut self.images {
             if begun.needs_binding || image.set.is_none() {
-                image.set = self.kernel.bind(&image.resource)?;
+                image.bind(&self.device, &self.kernel)?;
             }
         }
         self.current = Some(scene);

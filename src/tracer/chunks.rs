@@ -1,20 +1,20 @@
 //! A picture traced a chunk at a time: in which order, and how much at once. Pure: no Vulkan.
 
-/// Workgroups of a picture: `groups` along x and y, from `first` on.
+/// Workgroups of a picture, or blocks of them: `groups` along x and y, from `first` on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
     pub first: [u32; 2],
     pub groups: [u32; 2],
 }
 
-/// Goes through a picture's workgroups, row by row, in an order that spreads over the whole picture early: what is
+/// Goes through a picture's blocks, row by row, in an order that spreads over the whole picture early: what is
 /// not yet traced anew lies between rows that are, and chunks of it cost much the same.
 #[derive(Debug)]
 pub(super) struct Sweep {
     columns: u32,
-    /// Rows of workgroups, in their turn.
+    /// Rows of blocks, in their turn.
     rows: Vec<u32>,
-    /// Place in the sequence of all workgroups.
+    /// Place in the sequence of all blocks.
     next: u64,
     left: u64,
 }
@@ -47,7 +47,7 @@ impl Sweep {
         self.left = self.total();
     }
 
-    /// The next `count` workgroups, or those that are left.
+    /// The next `count` blocks, or those that are left.
     pub fn take(&mut self, count: u64) -> Vec<Part> {
         let mut count = count.min(self.left);
         if count == self.total() && count > 0 {
@@ -67,7 +67,7 @@ impl Sweep {
     }
 }
 
-/// How many workgroups to trace at once, so that whoever waits for the device need not wait long.
+/// How many blocks to trace at once, so that whoever waits for the device need not wait long.
 #[derive(Debug)]
 pub(super) struct Pace {
     groups: u64,
@@ -78,8 +78,8 @@ impl Pace {
     /// Whoever waits for the device has at most [`InFlight::COUNT`](crate::gpu::InFlight::COUNT) chunks before him: a
     /// panel that takes a CPU device another 20 ms to draw answers within the 100 ms that people take for at once.
     const CHUNK_NS: f64 = 20e6;
-    /// Before anything is known: little even at a millisecond each, more than the slowest kernel took on two cores.
-    const FIRST_GROUPS: u64 = 16;
+    /// Before anything is known: little even at four milliseconds each, more than the slowest kernel took on two cores.
+    const FIRST_GROUPS: u64 = 4;
     /// The next rows may be dearer than the last: the pace rises no faster than this, and falls at once.
     const LARGEST_RISE: u64 = 4;
 
@@ -171,7 +171,7 @@ mod tests {
             pace.measured(pace.groups(), pace.groups() * 100_000);
             groups.push(pace.groups());
         }
-        assert_eq!(groups, [64, 200, 200, 200, 200, 200, 200, 200], "100 µs each: 200 of them take 20 ms");
+        assert_eq!(groups, [16, 64, 200, 200, 200, 200, 200, 200], "100 µs each: 200 of them take 20 ms");
         pace.measured(200, 200_000_000);
         assert_eq!(pace.groups(), 20);
         pace.measured(20, u64::MAX);

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::scene::{Primitive, Scene, Solid};
+use crate::scene::{BoundingSphere, Primitive, Scene};
 
 /// From the world frame to the kernel's: (world − origin)·scale, rounded once where `scale` is a power of two.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -65,8 +65,9 @@ impl Extent {
     /// among many hardly ever moves it, nor does a ground a million times as large as all that stands on it.
     pub fn of(primitives: &[Primitive]) -> Self {
         let stride = primitives.len().div_ceil(SAMPLE).max(1);
-        let sample: Vec<_> = primitives.iter().step_by(stride).map(|primitive| Reach::of(&primitive.solid)).collect();
-        let mean = |number: &dyn Fn(&Reach) -> f64| {
+        let sample: Vec<_> =
+            primitives.iter().step_by(stride).map(|primitive| BoundingSphere::of(&primitive.solid)).collect();
+        let mean = |number: &dyn Fn(&BoundingSphere) -> f64| {
             interquartile_mean(sample.iter().map(|reach| (number(reach), 1.0 / reach.radius)).collect())
         };
         let size = mean(&|reach| reach.radius);
@@ -100,7 +101,7 @@ fn power_of_two_below(number: f64) -> f64 {
 /// The largest coordinate of a solid, seen from a place; world lengths.
 pub(super) fn farthest(primitives: &[Primitive], origin: DVec3) -> f64 {
     let farthest = |primitive: &Primitive| {
-        let reach = Reach::of(&primitive.solid);
+        let reach = BoundingSphere::of(&primitive.solid);
         (reach.center - origin).abs().max_element() + reach.radius
     };
     primitives.par_iter().map(farthest).reduce(|| 0.0, f64::max)
@@ -122,36 +123,6 @@ fn interquartile_mean(mut weighted: Vec<(f64, f64)>) -> f64 {
         number * (inside.max(0.0) / (0.5 * whole))
     });
     terms.sum()
-}
-
-/// A sphere around a solid, world frame.
-pub(super) struct Reach {
-    pub center: DVec3,
-    pub radius: f64,
-}
-
-impl Reach {
-    pub fn of(solid: &Solid) -> Self {
-        match *solid {
-            Solid::Sphere { center, radius } => Self { center, radius },
-            Solid::Box { center, half_size, .. } => Self { center, radius: half_size.length() },
-            Solid::Cylinder { ends: [a, b], radius } => {
-                Self { center: a.midpoint(b), radius: radius.hypot(half_length(a, b)) }
-            }
-            Solid::Cone { apex, axis, height, half_angle_degrees } => {
-                // Through the apex and the base's rim; of a blunt cone, the base itself.
-                let base_radius = height * half_angle_degrees.to_radians().tan();
-                let radius = (height * height + base_radius * base_radius) / (2.0 * height);
-                let (radius, at) = if base_radius <= height { (radius, radius) } else { (base_radius, height) };
-                Self { center: apex + axis * at, radius }
-            }
-        }
-    }
-}
-
-fn half_length(a: DVec3, b: DVec3) -> f64 {
-    // Halved first: the difference of two numbers near the largest must not overflow.
-    (b * 0.5 - a * 0.5).length()
 }
 
 /// a + b and what its rounding lost (Knuth's TwoSum).

@@ -12,6 +12,10 @@ use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Shader};
 use crate::plan::Precision;
 use crate::scene::{DEPTH_LIMIT, Scene};
 
+/// What a picture is traced by, pixels along x and y: workgroups below each other, as many as an invocation has pixels at
+/// most.
+pub(super) const BLOCK: [u32; 2] = [WORKGROUP[0], 4 * WORKGROUP[1]];
+
 pub(super) enum LiveKernel {
     Course(CourseKernel),
     Whitted(LiveWhitted),
@@ -49,9 +53,14 @@ impl LiveKernel {
         })
     }
 
-    /// The workgroups that cover so many pixels.
-    pub fn groups(size: [u32; 2]) -> [u32; 2] {
-        [size[0].div_ceil(WORKGROUP[0]), size[1].div_ceil(WORKGROUP[1])]
+    /// The blocks that cover so many pixels.
+    pub fn blocks(size: [u32; 2]) -> [u32; 2] {
+        [size[0].div_ceil(BLOCK[0]), size[1].div_ceil(BLOCK[1])]
+    }
+
+    /// Whether it draws into a buffer of pixels, and not into an image.
+    pub fn draws_pixels(&self) -> bool {
+        matches!(self, Self::Whitted(_))
     }
 
     /// # Errors
@@ -84,7 +93,7 @@ impl LiveKernel {
         }
     }
 
-    /// The kernel writing into `picture`; `None` before its first state.
+    /// The kernel writing into `picture`, [of its sort](LiveKernel::draws_pixels); `None` before its first state.
     pub fn bind(&self, picture: &Resource) -> Result<Option<Arc<BindingSet>>, GpuError> {
         match self {
             Self::Course(kernel) => kernel.bind(picture).map(Some),
@@ -92,18 +101,31 @@ impl LiveKernel {
         }
     }
 
-    /// Traces these parts of the picture: the sample with this index of each pixel, the ones before being there.
+    /// Traces these parts of the picture, in blocks: the sample with this index of each pixel, the ones before being there.
     pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, state: &State, sample: u32, parts: &[Part]) {
         match (self, state) {
-            (Self::Course(kernel), State::Course(scene)) => kernel.record(recorder, set, &scene.frame, parts),
+            (Self::Course(kernel), State::Course(scene)) => {
+                kernel.record(recorder, set, &scene.frame, &in_workgroups(parts, 1));
+            }
             (Self::Whitted(live), State::Whitted(state)) => {
                 if let Some(pipeline) = live.pipeline() {
-                    pipeline.record(recorder, set, &state.scene.frame, sample, parts);
+                    let parts = in_workgroups(parts, pipeline.pixels);
+                    pipeline.record(recorder, set, &state.scene.frame, sample, &parts);
                 }
             }
             (Self::Course(_) | Self::Whitted(_), _) => {}
         }
     }
+}
+
+/// Blocks in workgroups, of which each invocation has so many pixels.
+fn in_workgroups(blocks: &[Part], pixels: u32) -> Vec<Part> {
+    let rows = BLOCK[1] / (WORKGROUP[1] * pixels);
+    let part = |part: &Part| Part {
+        first: [part.first[0], part.first[1] * rows],
+        groups: [part.groups[0], part.groups[1] * rows],
+    };
+    blocks.iter().map(part).collect()
 }
 
 impl State {

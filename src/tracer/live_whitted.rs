@@ -8,6 +8,7 @@ use bytemuck::NoUninit;
 use super::course::WORKGROUP;
 use super::kernel_frame::Extent;
 use super::live_kernel::Begun;
+use super::pixels::check_picture;
 use super::sampling::Sampling;
 use super::whitted::{WhittedPipeline, WhittedScene, check_precision};
 use super::whitted_records::{SolidRecords, WhittedRecords};
@@ -82,6 +83,7 @@ impl LiveWhitted {
         let max_depth = work.max_depth.unwrap_or(scene.max_depth);
         let scene = WhittedScene::with(&self.device, scene, records, self.kernel, work.cuts, max_depth, size)?;
         let scene = if work.without_boxes { scene.without_boxes() } else { scene };
+        check_picture(self.device.description(), sampling.traced_size(size))?;
         Ok(WhittedState { scene: scene.sampled(sampling, size), primitives })
     }
 

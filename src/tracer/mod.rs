@@ -9,8 +9,10 @@ mod kernel_frame;
 mod live_kernel;
 mod live_whitted;
 mod outlines;
+mod pixels;
 pub mod probe;
 mod records;
+mod requirements;
 pub mod sampling;
 mod scene_kernel;
 mod target;
@@ -32,14 +34,14 @@ pub use records::{
 };
 
 pub use crate::plan::Precision;
-pub use whitted::{Requirements, check_precision, scene_bindings, upload_scene};
+pub use requirements::Requirements;
+pub use whitted::{check_precision, scene_bindings, upload_scene};
 pub use whitted_records::{SolidRecords, WhittedFrame, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};
 use crate::gpu::{BindingSet, Commands, Device, DeviceDescription, GpuError, Recorder, Texel, Timer, Use};
 use crate::plan::{Cuts, Limits, Plan};
 use crate::scene::Scene;
-use chunks::Part;
 use sampling::Sampling;
 use scene_kernel::SceneKernel;
 use target::{Enlarging, Target};
@@ -78,8 +80,8 @@ impl TracerError {
 
 /// What a plan needs to know of a device.
 pub fn limits_of(device: &DeviceDescription) -> Limits {
-    let &DeviceDescription { float64, max_texels, max_image_side, .. } = device;
-    Limits { float64, max_array_bytes: max_texels * Texel::BYTES, max_image_side }
+    let &DeviceDescription { float64, max_texels, max_image_side, octets: packets, .. } = device;
+    Limits { float64, max_array_bytes: max_texels * Texel::BYTES, max_image_side, packets }
 }
 
 /// Which kernel draws.
@@ -207,7 +209,7 @@ impl Tracer {
         settings.sampling().check()?;
         let max_depth = max_depth.unwrap_or(scene.max_depth);
         let kernel = SceneKernel::new(device, scene, settings, max_depth)?;
-        let target = Target::new(device, scene, settings, max_depth)?;
+        let target = Target::new(device, &kernel, scene, settings, max_depth)?;
         Ok(Self {
             set: kernel.bind(&target.traced)?,
             kernel,
@@ -234,7 +236,7 @@ impl Tracer {
         settings.sampling().check()?;
         let max_depth = max_depth.unwrap_or(scene.max_depth);
         self.kernel.take_up(&self.device, scene, settings, max_depth)?;
-        self.target.take_up(&self.device, scene, settings, max_depth)?;
+        self.target.take_up(&self.device, &self.kernel, scene, settings, max_depth)?;
         self.set = self.kernel.bind(&self.target.traced)?;
         self.samples = settings.samples;
         Ok(())
@@ -327,20 +329,22 @@ impl Tracer {
         let Self { kernel, set, target, timer, commands, samples, .. } = self;
         let Target { traced, enlarging, read_back, .. } = target;
         let traced_tile = enlarging.as_ref().map_or(tile, |enlarging| enlarging.enlarger.traced_tile(tile));
-        let whole_tile = Part { first: [0, 0], groups: kernel.groups([traced_tile.width, traced_tile.height]) };
         let is_last = sample + 1 == *samples;
         let record = |recorder: &mut Recorder| {
             if sample == 0 {
                 // Kernels count in alpha the samples that come to their end.
                 recorder.make_ready(traced, Use::CopyTarget);
-                recorder.clear(traced, [0.0; 4]);
+                recorder.zero(traced);
             }
             recorder.labelled("trace", |recorder| {
                 recorder.make_ready(traced, Use::ShaderWrite);
                 timer.iter().for_each(|timer| recorder.start(timer));
-                kernel.record(recorder, set, [traced_tile.x, traced_tile.y], sample, whole_tile);
-                if let Some(Enlarging { enlarger, set, picture }) = enlarging.as_ref().filter(|_| is_last) {
-                    enlarger.record(recorder, set, [picture, traced], tile);
+                kernel.record(recorder, set, traced_tile, sample);
+                if let Some(Enlarging { enlarger, set, source, picture }) = enlarging.as_ref().filter(|_| is_last) {
+                    recorder.make_ready(traced, Use::CopySource);
+                    recorder.make_ready(source, Use::CopyTarget);
+                    recorder.copy_to_image(traced, source, traced_tile.width, traced_tile.height);
+                    enlarger.record(recorder, set, [picture, source], tile);
                 }
                 timer.iter().for_each(|timer| recorder.stop(timer));
                 Ok(())

@@ -8,7 +8,8 @@ use glam::DVec3;
 use super::course::upload;
 use super::kernel_frame::{KernelFrame, farthest};
 use super::records::{FrameRecord, PrimitiveRecords};
-use super::whitted::{Requirements, scene_bindings, upload_scene};
+use super::requirements::Requirements;
+use super::whitted::{scene_bindings, upload_scene};
 use super::whitted_records::{WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError, check_precision};
 use crate::gpu::{
@@ -152,6 +153,7 @@ impl Probe {
             sample_place: [0, 0],
             samples_before: 0,
             sample_weight: 1.0,
+            tile_size: 0,
         };
         let scene = upload_scene(&self.device, &records, precision)?;
         let bytes = precision.bytes(cast_slice(&rows));

@@ -2,11 +2,13 @@ use std::sync::Arc;
 
 use super::chunks::Part;
 use super::course::{CourseKernel, CourseScene};
+use super::pixels::pixel_buffer;
 use super::records::FrameRecord;
+use super::tiles::Tile;
 use super::whitted::{WhittedPipeline, WhittedScene};
 use super::whitted_records::WhittedFrame;
 use super::{Kernel, Settings, TracerError};
-use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, shaders};
+use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, StorageImage, shaders};
 use crate::scene::Scene;
 
 /// A kernel with the scene that it draws.
@@ -64,6 +66,22 @@ impl SceneKernel {
         Ok(())
     }
 
+    /// Where it draws a tile of so many pixels.
+    pub fn picture(&self, device: &Arc<Device>, name: &str, [width, height]: [u32; 2]) -> Result<Resource, GpuError> {
+        Ok(match self {
+            Self::Course { .. } => Resource::from(&Arc::new(StorageImage::new(device, name, width, height)?)),
+            Self::Whitted { .. } => pixel_buffer(device, name, [width, height])?,
+        })
+    }
+
+    /// Whether a picture is of the sort that it draws.
+    pub fn draws_into(&self, picture: &Resource) -> bool {
+        match self {
+            Self::Course { .. } => matches!(picture, Resource::Image(_)),
+            Self::Whitted { .. } => matches!(picture, Resource::Buffer(_)),
+        }
+    }
+
     /// The kernel writing into `picture`.
     pub fn bind(&self, picture: &Resource) -> Result<Arc<BindingSet>, GpuError> {
         match self {
@@ -73,7 +91,7 @@ impl SceneKernel {
     }
 
     /// The workgroups that cover so many pixels.
-    pub fn groups(&self, size: [u32; 2]) -> [u32; 2] {
+    fn groups(&self, size: [u32; 2]) -> [u32; 2] {
         match self {
             Self::Course { kernel, .. } => kernel.groups(size),
             Self::Whitted { pipeline, .. } => pipeline.groups(size),
@@ -92,13 +110,14 @@ impl SceneKernel {
         matches!(self, Self::Whitted { .. })
     }
 
-    /// Traces a part of the tile whose corner is at these pixels of the picture: the sample with this index of each
-    /// pixel, the ones before being there.
-    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, [x, y]: [u32; 2], sample: u32, part: Part) {
+    /// Traces a tile of the picture: the sample with this index of each pixel, the ones before being there.
+    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, tile: Tile, sample: u32) {
+        let Tile { x, y, width, height } = tile;
+        let part = Part { first: [0, 0], groups: self.groups([width, height]) };
         match self {
             Self::Course { kernel, frame } => kernel.record(recorder, set, &frame.at_tile(x, y), &[part]),
             Self::Whitted { pipeline, frame, .. } => {
-                let frame = WhittedFrame { tile_origin: x | y << 16, ..*frame };
+                let frame = WhittedFrame { tile_origin: x | y << 16, tile_size: width | height << 16, ..*frame };
                 pipeline.record(recorder, set, &frame, sample, &[part]);
             }
         }

@@ -1,18 +1,20 @@
-//! What a [`Tracer`](super::Tracer) draws into: images of one tile, and where the host reads it.
+//! What a [`Tracer`](super::Tracer) draws into: pictures of one tile, and where the host reads it.
 
 use std::sync::Arc;
 
 use super::enlarge::Enlarger;
+use super::pixels::largest_side;
+use super::scene_kernel::SceneKernel;
 use super::tiles::{Tile, tiles};
 use super::{Settings, TracerError};
-use crate::gpu::{BindingSet, Buffer, BufferKind, Device, Resource, StorageImage};
+use crate::gpu::{BindingSet, Buffer, BufferKind, Device, PIXEL_BYTES, Resource, StorageImage};
 use crate::plan::tile_side;
 use crate::scene::Scene;
 
 pub(super) struct Target {
     /// Of the picture asked for.
     pub tiles: Vec<Tile>,
-    /// A tile as it is traced.
+    /// A tile as it is traced: the kernel's [picture](SceneKernel::picture).
     pub traced: Resource,
     /// Where that is smaller than the tile.
     pub enlarging: Option<Enlarging>,
@@ -20,7 +22,7 @@ pub(super) struct Target {
     /// The same.
     pub read_back: Resource,
     scale: f64,
-    /// Of the largest tile that the images hold, pixels as traced.
+    /// Of the largest tile that they hold, pixels as traced.
     traced_side: u32,
 }
 
@@ -28,14 +30,22 @@ pub(super) struct Target {
 pub(super) struct Enlarging {
     pub enlarger: Enlarger,
     pub set: Arc<BindingSet>,
+    /// The traced tile, copied.
+    pub source: Resource,
     pub picture: Resource,
 }
 
 impl Target {
-    pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings, max_depth: u32) -> Result<Self, TracerError> {
+    pub fn new(
+        device: &Arc<Device>,
+        kernel: &SceneKernel,
+        scene: &Scene,
+        settings: &Settings,
+        max_depth: u32,
+    ) -> Result<Self, TracerError> {
         let &Settings { width, height, scale, .. } = settings;
         let size = [width, height];
-        let traced_side = traced_side(scene, settings, max_depth, device.description().max_image_side);
+        let traced_side = traced_side(scene, settings, max_depth, largest_side(device.description()));
         let tile_side = shown_side(traced_side, scale, device);
         let tile = size.map(|side| side.min(tile_side));
         let image = |name, [width, height]: [u32; 2]| {
@@ -43,33 +53,35 @@ impl Target {
         };
         let (traced, enlarging) = if scale < 1.0 {
             let enlarger = Enlarger::new(device, size, settings.sampling().traced_size(size))?;
-            let traced = image("traced", enlarger.most_traced(tile))?;
-            let picture = image("picture", tile)?;
-            let set = enlarger.bind(&picture, &traced)?;
-            (traced, Some(Enlarging { enlarger, set, picture }))
+            let traced_tile = enlarger.most_traced(tile);
+            let (source, picture) = (image("traced tile", traced_tile)?, image("picture", tile)?);
+            let set = enlarger.bind(&picture, &source)?;
+            let traced = kernel.picture(device, "traced", traced_tile)?;
+            (traced, Some(Enlarging { enlarger, set, source, picture }))
         } else {
-            (image("picture", tile)?, None)
+            (kernel.picture(device, "picture", tile)?, None)
         };
-        let tile_bytes = u64::from(tile[0]) * u64::from(tile[1]) * StorageImage::PIXEL_BYTES;
+        let tile_bytes = u64::from(tile[0]) * u64::from(tile[1]) * PIXEL_BYTES;
         let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, tile_bytes)?);
         let (tiles, read_back) = (tiles(width, height, tile_side), Resource::from(&pixels));
         Ok(Self { tiles, traced, enlarging, pixels, read_back, scale, traced_side })
     }
 
-    /// For another scene or other settings of the same size; the images are kept where they fit.
+    /// For another scene or other settings of the same size; what is there is kept where it fits.
     pub fn take_up(
         &mut self,
         device: &Arc<Device>,
+        kernel: &SceneKernel,
         scene: &Scene,
         settings: &Settings,
         max_depth: u32,
     ) -> Result<(), TracerError> {
         let &Settings { width, height, scale, .. } = settings;
-        if scale == self.scale {
+        if scale == self.scale && kernel.draws_into(&self.traced) {
             let traced_side = traced_side(scene, settings, max_depth, self.traced_side);
             self.tiles = tiles(width, height, shown_side(traced_side, scale, device));
         } else {
-            *self = Self::new(device, scene, settings, max_depth)?;
+            *self = Self::new(device, kernel, scene, settings, max_depth)?;
         }
         Ok(())
     }

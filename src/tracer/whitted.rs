@@ -6,14 +6,15 @@ use glam::DVec3;
 
 use super::chunks::Part;
 use super::kernel_frame::KernelFrame;
+use super::requirements::{Requirements, come_in_packets, in_turn};
 use super::sampling::Sampling;
 use super::whitted_records::{WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, DeviceKind, FloatWidth, GpuError,
-    PipelineDescription, Recorder, Resource, Texel, arithmetic, shaders,
+    BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, GpuError, PipelineDescription, Recorder,
+    Resource, Texel, shaders,
 };
-use crate::plan::{Cuts, Precision};
+use crate::plan::{Cuts, Precision, pixels_in_turn};
 use crate::scene::Scene;
 
 impl Precision {
@@ -66,93 +67,6 @@ pub fn scene_bindings(precision: Precision) -> [BindingKind; 7] {
     let mut bindings = [BindingKind::Texels(precision.texel()); 7];
     bindings[1] = BindingKind::Texels(Texel::Floats);
     bindings
-}
-
-/// What the kernel is made for, apart from its precision and its workgroup.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Requirements {
-    /// Which kinds there are: spheres, boxes, cylinders, cones.
-    pub kinds: [bool; 4],
-    /// Of boxes over the solids of each kind.
-    pub levels: [u32; 4],
-    pub are_boxes_upright: bool,
-    pub highlights: bool,
-    /// Whose balls primary rays may see: none, one, or several (2).
-    pub balls: u32,
-    /// That brighten: as many.
-    pub lights: u32,
-    pub shadows: bool,
-    pub reflections: bool,
-    /// Pixels have more than one sample.
-    pub samples: bool,
-}
-
-impl Requirements {
-    pub fn of(records: &WhittedRecords, cuts: &Cuts, max_depth: u32) -> Self {
-        let lights = |matter: bool| if matter { records.light_count.min(2) } else { 0 };
-        let has_lights = lights(cuts.lights) > 0;
-        Self {
-            kinds: records.solids.counts.map(|count| count > 0),
-            levels: records.solids.levels,
-            are_boxes_upright: records.solids.are_boxes_upright,
-            highlights: cuts.highlights && has_lights,
-            balls: lights(cuts.balls),
-            lights: lights(cuts.lights),
-            shadows: cuts.shadows && has_lights,
-            reflections: cuts.reflections && max_depth > 1,
-            samples: false,
-        }
-    }
-
-    /// The specialization constants of `glsl/whitted/real.glsl`, `scene.glsl` and `whitted.comp`.
-    ///
-    /// # Errors
-    /// The device fails when its arithmetic is tried.
-    pub fn constants(
-        &self,
-        device: &Arc<Device>,
-        precision: Precision,
-        [width, height]: [u32; 2],
-    ) -> Result<[u32; 19], GpuError> {
-        let float_width = match precision {
-            Precision::F32 => FloatWidth::F32,
-            Precision::F64 => FloatWidth::F64,
-        };
-        let has_fused_fma = u32::from(arithmetic(device, float_width)?.fused_fma);
-        let [spheres, boxes, cylinders, cones] = self.kinds.map(u32::from);
-        let [sphere_levels, box_levels, cylinder_levels, cone_levels] = self.levels;
-        let &Self { highlights, balls, lights, shadows, reflections, samples, .. } = self;
-        Ok([
-            has_fused_fma,
-            spheres,
-            boxes,
-            cylinders,
-            cones,
-            width,
-            height,
-            loop_turns(device),
-            u32::from(self.are_boxes_upright),
-            sphere_levels,
-            box_levels,
-            cylinder_levels,
-            cone_levels,
-            u32::from(highlights),
-            lights,
-            u32::from(shadows),
-            u32::from(reflections),
-            balls,
-            u32::from(samples),
-        ])
-    }
-}
-
-/// Specialization constant 7: the turns of loops that an invocation may take.
-fn loop_turns(device: &Device) -> u32 {
-    match device.description().kind {
-        // Below Mesa's 65535 by more than a last search among all kinds takes to end.
-        DeviceKind::Cpu => 60_000,
-        DeviceKind::Discrete | DeviceKind::Integrated | DeviceKind::Virtual | DeviceKind::Other => u32::MAX,
-    }
 }
 
 /// Refuses a precision that the device does not have.
@@ -224,7 +138,7 @@ pub(super) struct WhittedScene {
     kernel: Kernel,
     pub records: WhittedRecords,
     requirements: Requirements,
-    /// Of the whole picture.
+    /// Of the whole picture in one tile.
     pub frame: WhittedFrame,
     /// Of each pixel.
     pub samples: u32,
@@ -278,8 +192,10 @@ impl WhittedScene {
             sample_place: [0, 0],
             samples_before: 0,
             sample_weight: 1.0,
+            tile_size: width | height << 16,
         };
-        let requirements = Requirements::of(&records, &cuts, max_depth);
+        let pixels = pixels_in_turn(scene, max_depth);
+        let requirements = Requirements { pixels, ..Requirements::of(&records, &cuts, max_depth) };
         let background = scene.background.as_vec3().to_array();
         Ok(Self { kernel, records, requirements, frame, samples: 1, background })
     }
@@ -288,6 +204,7 @@ impl WhittedScene {
     pub fn sampled(mut self, sampling: Sampling, size: [u32; 2]) -> Self {
         let [width, height] = sampling.traced_size(size);
         self.frame.image_size = width | height << 16;
+        self.frame.tile_size = self.frame.image_size;
         self.samples = sampling.samples;
         self.requirements.samples = sampling.samples > 1;
         self
@@ -316,15 +233,16 @@ pub(super) struct WhittedPipeline {
     kernel: Kernel,
     requirements: Requirements,
     workgroup: [u32; 2],
+    /// That an invocation traces: workgroups below each other.
+    pub pixels: u32,
 }
 
 impl WhittedPipeline {
     pub fn new(device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
         let precision = scene.kernel.precision();
-        let mut bindings = vec![BindingKind::Picture];
+        let mut bindings = vec![BindingKind::Pixels];
         bindings.extend(scene_bindings(precision));
-        // Invocations come by eights along x.
-        let octets = device.description().octets && workgroup[0].is_multiple_of(8);
+        let octets = come_in_packets(device, workgroup);
         let shader = match (scene.kernel, octets) {
             (Kernel::Whitted(Precision::F64), false) => &shaders::WHITTED_F64,
             (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_OCTETS,
@@ -340,7 +258,8 @@ impl WhittedPipeline {
             constants: &scene.requirements.constants(device, precision, workgroup)?,
         };
         let pipeline = ComputePipeline::new(device, &description)?;
-        Ok(Self { pipeline, kernel: scene.kernel, requirements: scene.requirements, workgroup })
+        let pixels = in_turn(scene.requirements.pixels, device, workgroup);
+        Ok(Self { pipeline, kernel: scene.kernel, requirements: scene.requirements, workgroup, pixels })
     }
 
     /// Whether it draws that scene too.
@@ -349,7 +268,7 @@ impl WhittedPipeline {
         (kernel, requirements, own_workgroup) == (scene.kernel, scene.requirements, workgroup)
     }
 
-    /// The kernel reading a scene's arrays and writing into `picture`.
+    /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.
     pub fn bind(&self, picture: &Resource, arrays: &[Resource]) -> Result<Arc<BindingSet>, GpuError> {
         let resources: Vec<_> = [picture].into_iter().chain(arrays).cloned().collect();
         BindingSet::new(&self.pipeline, &resources)
@@ -371,7 +290,7 @@ impl WhittedPipeline {
 
     /// The workgroups that cover so many pixels.
     pub fn groups(&self, [width, height]: [u32; 2]) -> [u32; 2] {
-        [width.div_ceil(self.workgroup[0]), height.div_ceil(self.workgroup[1])]
+        [width.div_ceil(self.workgroup[0]), height.div_ceil(self.workgroup[1] * self.pixels)]
     }
 }
 

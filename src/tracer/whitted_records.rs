@@ -11,11 +11,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::hierarchy::{self, Bounds, GROUP, Level};
-use super::kernel_frame::{KernelFrame, Reach, two_sum};
+use super::kernel_frame::{KernelFrame, two_sum};
 use super::outlines::{bounds, is_turned, level_rows, nothing, outline};
 use super::sampling::sample_place;
 use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, SOLID_ROWS, VIEW_ROWS};
-use crate::scene::{Camera, Light, Primitive, Projection, Scene, Solid, SolidKind, world_from_box};
+use crate::scene::{BoundingSphere, Camera, Light, Primitive, Projection, Scene, Solid, SolidKind, world_from_box};
 
 /// Lights farther than this many times the largest primitive are moved here along their direction: parallel light to
 /// the last bit of an `f64`, and no square of their distance overflows an `f32`.
@@ -130,7 +130,7 @@ impl SolidRecords {
         let frame = self.frame;
         let is_counted = |(_, primitive): &(u32, &Primitive)| {
             // Below that, squares leave the kernel's range; against the scene it is nothing that a pixel could show.
-            let reach = Reach::of(&primitive.solid).radius * frame.scale;
+            let reach = BoundingSphere::of(&primitive.solid).radius * frame.scale;
             primitive.solid.kind() == kind && reach >= precision.smallest_length()
         };
         let primitives: Vec<_> = (0_u32..).zip(primitives).filter(is_counted).collect();
@@ -328,6 +328,8 @@ pub struct WhittedFrame {
     pub samples_before: u32,
     /// Of this one in the mean.
     pub sample_weight: f32,
+    /// Pixels, width | height << 16.
+    pub tile_size: u32,
 }
 
 impl WhittedFrame {

@@ -218,8 +218,9 @@ fn states(run: &Run) -> Option<[(&'static str, bool); 16]> {
         lights,
         shadows,
         reflections,
-        // A scene does not tell how it is sampled.
+        // A scene does not tell how it is sampled, nor whether invocations come in packets.
         samples: _,
+        pixels: _,
     } = Requirements::of(&records, &cuts, max_depth);
     Some([
         ("spheres", spheres),

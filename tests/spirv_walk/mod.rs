@@ -18,8 +18,6 @@ pub struct Reached {
     pub instructions: usize,
     /// Reads of texel buffers in the code.
     pub fetches: usize,
-    /// Reads of storage images.
-    pub image_reads: usize,
     /// Jumps back to a loop's head.
     pub back_edges: usize,
 }
@@ -42,8 +40,7 @@ impl Kernel {
     pub fn reached(&self, constants: &[u32]) -> Reached {
         let values = self.constants(constants);
         let entry = self.module.entry_points[0].operands[1].unwrap_id_ref();
-        let mut reached =
-            Reached { names: BTreeSet::new(), instructions: 0, fetches: 0, image_reads: 0, back_edges: 0 };
+        let mut reached = Reached { names: BTreeSet::new(), instructions: 0, fetches: 0, back_edges: 0 };
         let (mut due, mut seen) = (vec![entry], HashSet::from([entry]));
         while let Some(id) = due.pop() {
             let function = self.module.functions.iter().find(|function| function.def_id() == Some(id)).unwrap();
@@ -118,7 +115,6 @@ impl Kernel {
                 };
                 values.extend(instruction.result_id.zip(known));
                 reached.fetches += usize::from(opcode == Op::ImageFetch);
-                reached.image_reads += usize::from(opcode == Op::ImageRead);
             }
             let last = block.instructions.last().unwrap();
             let targets: Vec<Word> = match last.class.opcode {

@@ -6,7 +6,7 @@ use super::super::TracerError;
 use super::super::sampling::Sampling;
 use super::Canvas;
 use crate::frame::Frame;
-use crate::gpu::{Buffer, BufferKind, InFlight, Resource, StorageImage, Use};
+use crate::gpu::{Buffer, BufferKind, InFlight, PIXEL_BYTES, Resource, Use};
 
 impl Canvas {
     /// The picture shown, as it is now.
@@ -14,7 +14,7 @@ impl Canvas {
         self.collect_all(in_flight)?;
         let [width, height] = self.size;
         let mut frame = Frame::new(width, height)?;
-        let bytes = frame.pixels().len() as u64 * StorageImage::PIXEL_BYTES;
+        let bytes = frame.pixels().len() as u64 * PIXEL_BYTES;
         let buffer = Arc::new(Buffer::new(&self.device, "picture read back", BufferKind::Readback, bytes)?);
         let resource = Resource::from(&buffer);
         in_flight.run(|recorder| {

@@ -1,0 +1,48 @@
+// The balls of lights, which primary rays see.
+
+// Whether the ray may meet the ball: in float, on the safe side. Lights may lie beyond frame.reach, so that the rounding of
+// their centres goes by the distance too: u of it, and u more for that of a double's direction, besides the 16u of
+// DISTANCE_ERROR.
+bool may_meet_ball(Ray ray, Light light) {
+    vec3 to_center = vec3(light.position) - vec3(ray.origin), direction = vec3(ray.direction);
+    float ahead = dot(to_center, direction);
+    vec3 across = to_center - ahead * direction;
+    float radius = float(light.ball_radius);
+    radius += (2.0 * DISTANCE_ERROR) * (abs(ahead) + radius) + place_error();
+    return dot(across, across) <= radius * radius && ahead >= -radius;
+}
+
+// Of any light; `lamp`: the only one, where there is but one.
+bool may_meet_a_ball(Ray ray, Light lamp) {
+    bool may_meet = false;
+    uint i = 0u;
+    for (;;) {
+        turns++;
+        Light ball_light = lamp;
+        if (BALLS > 1u) ball_light = light(i);
+        may_meet = may_meet || may_meet_ball(ray, ball_light);
+        i++;
+        if (BALLS == 1u || !(i < frame.light_count)) break;
+    }
+    return may_meet;
+}
+
+// Where the ray meets the nearest ball of a light, and its intensity; at LARGEST, nothing.
+Real ball_ahead(Ray ray, Light lamp, out Real3 intensity) {
+    intensity = Real3(0.0);
+    Real t = LARGEST;
+    uint i = 0u;
+    for (;;) {
+        turns++;
+        Light ball_light = lamp;
+        if (BALLS > 1u) ball_light = light(i);
+        Hit ball;
+        bool is_met = meet(Sphere(ball_light.position, ball_light.ball_radius), ray, FREE, CURVED, ball);
+        bool is_seen = i < frame.light_count && is_met && ball.t < t;
+        if (is_seen) intensity = ball_light.intensity;
+        t = is_seen ? ball.t : t;
+        i++;
+        if (BALLS == 1u || !(i < frame.light_count)) break;
+    }
+    return t;
+}

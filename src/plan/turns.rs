@@ -1,0 +1,91 @@
+//! How many pixels an invocation traces, one after another.
+
+use super::solids::turned_boxes;
+use super::{Decision, Limits, Reason, Structure};
+use crate::scene::{BoundingSphere, Scene, SolidKind};
+
+/// Turns of all its loops together that an invocation may take on a CPU driver. Mesa's leave a loop after 65535 without a
+/// word; this is below by more than a last search among all kinds takes to end.
+pub const CPU_LOOP_TURNS: u32 = 60_000;
+
+/// Where invocations come in packets, a packet that goes on to its next pixels spares the end of each what comes after
+/// the search, and reads the camera once.
+const MOST_PIXELS: u32 = 4;
+
+/// Scenes of more are not looked at: their pixels take long by themselves, and gain little by company.
+const MOST_SOLIDS: usize = 512;
+
+/// Solids that a ray may have to solve exactly besides those that it may meet at one place: outlines that it touches in
+/// passing.
+const TOUCHED: usize = 2;
+
+/// Of a packet: four, where a pixel of rays that go into every box and solve every solid that they may have to leaves the
+/// driver's loops time for four of them. Else one.
+pub fn pixels_in_turn(scene: &Scene, generations: u32) -> u32 {
+    if scene.primitives.len() > MOST_SOLIDS {
+        return 1;
+    }
+    // A turn for each group of eight solids or of boxes, and some for the search itself.
+    let turns =
+        |kind: SolidKind| match scene.primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count() {
+            0 => 0,
+            solids => 2 + solids.div_ceil(Structure::GROUP - 1) as u64,
+        };
+    let search: u64 = SolidKind::ALL.into_iter().map(turns).sum();
+    // A box that is turned is tried by the upright box around it, which a ray may meet for nothing.
+    let solved = (1 + TOUCHED + most_in_one_place(scene) + turned_boxes(scene)) as u64;
+    let rays = u64::from(generations) * (1 + scene.lights.len() as u64);
+    let turns = search.saturating_mul(solved).saturating_mul(rays);
+    if turns.saturating_mul(MOST_PIXELS.into()) <= CPU_LOOP_TURNS.into() { MOST_PIXELS } else { 1 }
+}
+
+/// No more solids than that have a point in common: a ray may have to solve all that it meets at its first hit, to the
+/// rounding of their outlines.
+fn most_in_one_place(scene: &Scene) -> usize {
+    let spheres: Vec<_> = scene.primitives.iter().map(|primitive| BoundingSphere::of(&primitive.solid)).collect();
+    let touch =
+        |a: &BoundingSphere, b: &BoundingSphere| a.center.distance(b.center) <= (a.radius + b.radius) * (1.0 + 1e-3);
+    spheres.iter().map(|a| spheres.iter().filter(|b| touch(a, b)).count()).max().unwrap_or_default()
+}
+
+pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decision<u32> {
+    if !limits.packets {
+        return Decision { choice: 1, reason: Reason::NoPackets };
+    }
+    let choice = pixels_in_turn(scene, generations);
+    Decision { choice, reason: if choice > 1 { Reason::PixelsInTurn } else { Reason::LongPixels } }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::{Light, gallery};
+
+    fn scene(name: &str) -> Scene {
+        gallery::scene(name).unwrap()
+    }
+
+    #[test]
+    fn light_pixels_are_traced_in_turn_and_heavy_ones_alone() {
+        assert_eq!(pixels_in_turn(&Scene::default(), 1), 4);
+        for name in
+            ["four", "showcase", "corridor", "grid-sphere-100", "grid-box-100", "grid-cylinder-100", "grid-cone-100"]
+        {
+            let scene = scene(name);
+            assert_eq!(pixels_in_turn(&scene, scene.max_depth), 4, "{name}");
+        }
+        assert_eq!(pixels_in_turn(&scene("grid-sphere-100"), 1000), 1, "many generations");
+        assert_eq!(pixels_in_turn(&scene("cloud-10000"), 20), 1, "many solids");
+        let lights = vec![Light::default(); 50];
+        assert_eq!(pixels_in_turn(&Scene { lights, ..scene("grid-sphere-100") }, 20), 1, "many lights");
+    }
+
+    #[test]
+    fn solids_in_one_place_are_solved_one_after_another() {
+        let sphere = scene("sphere").primitives[0].clone();
+        let on_one_place = |count| Scene { primitives: vec![sphere.clone(); count], ..Scene::default() };
+        assert_eq!(most_in_one_place(&on_one_place(100)), 100);
+        assert_eq!(pixels_in_turn(&on_one_place(100), 20), 1);
+        assert_eq!(pixels_in_turn(&on_one_place(3), 20), 4);
+    }
+}
