@@ -25,7 +25,7 @@ void main() {
         Real3 color = traced.colors[0];
 #define CHOOSE_ONE(i) \
     if (i < PIXELS && k == i) color = traced.colors[i];
-        CHOOSE_ONE(1u) CHOOSE_ONE(2u) CHOOSE_ONE(3u)
+        EIGHT_TIMES(CHOOSE_ONE)
         vec3 shown = vec3(min(color, Real3(3.4028234663852886e38)));
         if (frame.writes_remainder != 0u) shown = vec3(min(color - Real3(shown), Real3(3.4028234663852886e38)));
         float ended = is_ended ? 1.0 : 0.0;

@@ -15,7 +15,10 @@ struct WhittedFrame {
     float sample_weight;   // of this one in the mean: 1 / (samples_before + 1)
     uint tile_size;        // pixels, width | height << 16
 };
-layout(push_constant, std430) uniform Push { WhittedFrame frame; };
+layout(push_constant, std430) uniform Push { WhittedFrame pushed; };
+
+// Read once: within a loop a CPU driver would fetch a number for each invocation by itself, turn after turn.
+WhittedFrame frame = pushed;
 
 // Of each kind, which takes whole groups of eight.
 uvec4 first_slots() {

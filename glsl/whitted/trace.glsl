@@ -34,7 +34,7 @@ struct Traced {
 void put(uint index, Real3 color, inout Traced traced) {
 #define PUT_ONE(k) \
     if (k < PIXELS && index == k) traced.colors[k] = color;
-    PUT_ONE(0u) PUT_ONE(1u) PUT_ONE(2u) PUT_ONE(3u)
+    EIGHT_TIMES(PUT_ONE)
 #undef PUT_ONE
 }
 

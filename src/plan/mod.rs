@@ -23,7 +23,7 @@ pub use budget::{Bounds, Cuts};
 pub use precision::Precision;
 pub use reason::{Line, Reason};
 pub use tiling::tile_side;
-pub use turns::{CPU_LOOP_TURNS, pixels_in_turn};
+pub use turns::{CPU_LOOP_TURNS, MOST_PIXELS, pixels_in_turn};
 
 use glam::DVec3;
 use thiserror::Error;

@@ -10,17 +10,17 @@ pub const CPU_LOOP_TURNS: u32 = 60_000;
 
 /// Where invocations come in packets, a packet that goes on to its next pixels spares the end of each what comes after
 /// the search, and reads the camera once.
-const MOST_PIXELS: u32 = 4;
+pub const MOST_PIXELS: u32 = 8;
 
 /// Scenes of more are not looked at: their pixels take long by themselves, and gain little by company.
 const MOST_SOLIDS: usize = 512;
 
-/// Solids that a ray may have to solve exactly besides those that it may meet at one place: outlines that it touches in
+/// Solids that a ray may have to solve exactly besides those that it may meet at one place: an outline that it touches in
 /// passing.
-const TOUCHED: usize = 2;
+const TOUCHED: usize = 1;
 
-/// Of a packet: four, where a pixel of rays that go into every box and solve every solid that they may have to leaves the
-/// driver's loops time for four of them. Else one.
+/// Of a packet: eight, or the largest power of two so that pixels of rays that go into every box and solve every solid that
+/// they may have to leave the driver's loops time for all of them.
 pub fn pixels_in_turn(scene: &Scene, generations: u32) -> u32 {
     if scene.primitives.len() > MOST_SOLIDS {
         return 1;
@@ -36,7 +36,10 @@ pub fn pixels_in_turn(scene: &Scene, generations: u32) -> u32 {
     let solved = (1 + TOUCHED + most_in_one_place(scene) + turned_boxes(scene)) as u64;
     let rays = u64::from(generations) * (1 + scene.lights.len() as u64);
     let turns = search.saturating_mul(solved).saturating_mul(rays);
-    if turns.saturating_mul(MOST_PIXELS.into()) <= CPU_LOOP_TURNS.into() { MOST_PIXELS } else { 1 }
+    let fits = |pixels: &u32| turns.saturating_mul(u64::from(*pixels)) <= u64::from(CPU_LOOP_TURNS);
+    std::iter::successors(Some(MOST_PIXELS), |pixels| Some(pixels / 2))
+        .find(|pixels| *pixels == 1 || fits(pixels))
+        .unwrap_or(1)
 }
 
 /// No more solids than that have a point in common: a ray may have to solve all that it meets at its first hit, to the
@@ -67,12 +70,12 @@ mod tests {
 
     #[test]
     fn light_pixels_are_traced_in_turn_and_heavy_ones_alone() {
-        assert_eq!(pixels_in_turn(&Scene::default(), 1), 4);
+        assert_eq!(pixels_in_turn(&Scene::default(), 1), 8);
         for name in
             ["four", "showcase", "corridor", "grid-sphere-100", "grid-box-100", "grid-cylinder-100", "grid-cone-100"]
         {
             let scene = scene(name);
-            assert_eq!(pixels_in_turn(&scene, scene.max_depth), 4, "{name}");
+            assert_eq!(pixels_in_turn(&scene, scene.max_depth), 8, "{name}");
         }
         assert_eq!(pixels_in_turn(&scene("grid-sphere-100"), 1000), 1, "many generations");
         assert_eq!(pixels_in_turn(&scene("cloud-10000"), 20), 1, "many solids");
@@ -86,6 +89,7 @@ mod tests {
         let on_one_place = |count| Scene { primitives: vec![sphere.clone(); count], ..Scene::default() };
         assert_eq!(most_in_one_place(&on_one_place(100)), 100);
         assert_eq!(pixels_in_turn(&on_one_place(100), 20), 1);
-        assert_eq!(pixels_in_turn(&on_one_place(3), 20), 4);
+        assert_eq!(pixels_in_turn(&on_one_place(3), 20), 8);
+        assert_eq!(pixels_in_turn(&on_one_place(30), 20), 4, "fewer at a time");
     }
 }

@@ -78,8 +78,8 @@ impl Pace {
     /// Whoever waits for the device has at most [`InFlight::COUNT`](crate::gpu::InFlight::COUNT) chunks before him: a
     /// panel that takes a CPU device another 20 ms to draw answers within the 100 ms that people take for at once.
     const CHUNK_NS: f64 = 20e6;
-    /// Before anything is known: little even at four milliseconds each, more than the slowest kernel took on two cores.
-    const FIRST_GROUPS: u64 = 4;
+    /// Before anything is known: little even at eight milliseconds each, more than the slowest kernel took on two cores.
+    const FIRST_GROUPS: u64 = 2;
     /// The next rows may be dearer than the last: the pace rises no faster than this, and falls at once.
     const LARGEST_RISE: u64 = 4;
 
@@ -171,7 +171,7 @@ mod tests {
             pace.measured(pace.groups(), pace.groups() * 100_000);
             groups.push(pace.groups());
         }
-        assert_eq!(groups, [16, 64, 200, 200, 200, 200, 200, 200], "100 µs each: 200 of them take 20 ms");
+        assert_eq!(groups, [8, 32, 128, 200, 200, 200, 200, 200], "100 µs each: 200 of them take 20 ms");
         pace.measured(200, 200_000_000);
         assert_eq!(pace.groups(), 20);
         pace.measured(20, u64::MAX);

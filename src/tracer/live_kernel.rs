@@ -9,12 +9,12 @@ use super::records::PrimitiveRecords;
 use super::sampling::Sampling;
 use super::{Kernel, TracerError, Work};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Shader};
-use crate::plan::Precision;
+use crate::plan::{MOST_PIXELS, Precision};
 use crate::scene::{DEPTH_LIMIT, Scene};
 
 /// What a picture is traced by, pixels along x and y: workgroups below each other, as many as an invocation has pixels at
 /// most.
-pub(super) const BLOCK: [u32; 2] = [WORKGROUP[0], 4 * WORKGROUP[1]];
+pub(super) const BLOCK: [u32; 2] = [WORKGROUP[0], MOST_PIXELS * WORKGROUP[1]];
 
 pub(super) enum LiveKernel {
     Course(CourseKernel),
