@@ -1,7 +1,8 @@
 // The rays of a packet as one, so that each invocation can try one of eight outlines for all of them: what none of the
 // rays can meet need not be tried by each. That pays where trying by ray is dear: cylinders and cones.
 
-// From within `spread` of the origin, at an angle to `direction` of no more than the one with this sine and cosine.
+// From within `spread` of the origin, at an angle to `direction` of no more than the one with this sine and cosine. About
+// the first ray that searches: about the mean of all it would be narrower by less than that takes.
 struct Bundle {
     vec3 heading;   // where the first ray goes: what lies one behind the other is gone through that way
     vec3 origin;
@@ -13,13 +14,11 @@ struct Bundle {
 
 #if OCTETS
 Bundle bundle_of(Beam beam, bool is_searching) {
-    vec4 sum = sum_of_packet(is_searching ? vec4(beam.origin, 1.0) : vec4(0.0));
+    uint first = uint(findLSB(bits_of_packet(is_searching ? 1u << gl_SubgroupInvocationID : 0u))) & 7u;
     Bundle bundle;
-    bundle.heading = first_of_packet(beam.direction);
-    vec3 direction = sum_of_packet(is_searching ? beam.direction : vec3(0.0));
-    bundle.origin = sum.xyz / max(sum.w, 1.0);
-    // Where the rays cancel each other, any vector: the chords below are long then.
-    bundle.direction = direction / sqrt(max(dot(direction, direction), 1e-12));
+    bundle.heading = of_packet(beam.direction, 0u);
+    bundle.origin = of_packet(beam.origin, first);
+    bundle.direction = of_packet(beam.direction, first);
     vec3 from_origin = is_searching ? beam.origin - bundle.origin : vec3(0.0);
     // Twice the sine of half the angle.
     vec3 chord = is_searching ? beam.direction - bundle.direction : vec3(0.0);

@@ -15,18 +15,14 @@ const bool IN_PACKETS = true;
         all = COMBINED(all, subgroupShuffleXor(all, 2u));     \
         return COMBINED(all, subgroupShuffleXor(all, 4u));    \
     }
-#define SUM(a, b) ((a) + (b))
 #define EITHER(a, b) ((a) | (b))
 OF_PACKET(uint, bits_of_packet, EITHER)
-OF_PACKET(vec3, sum_of_packet, SUM)
-OF_PACKET(vec4, sum_of_packet, SUM)
 OF_PACKET(int, greatest_of_packet, max)
 #undef OF_PACKET
-#undef SUM
 #undef EITHER
 
 bool any_of_packet(bool mine) { return bits_of_packet(uint(mine)) != 0u; }
-vec3 first_of_packet(vec3 mine) { return subgroupShuffle(mine, 0u); }
+vec3 of_packet(vec3 mine, uint k) { return subgroupShuffle(mine, k); }
 
 // Of numbers from 0 on.
 float greatest_of_packet(float mine) { return intBitsToFloat(greatest_of_packet(floatBitsToInt(mine))); }
@@ -38,7 +34,6 @@ float greatest_of_packet(float mine) { return intBitsToFloat(greatest_of_packet(
 const bool IN_PACKETS = false;
 bool any_of_packet(bool mine) { return mine; }
 uint bits_of_packet(uint mine) { return mine; }
-vec3 first_of_packet(vec3 mine) { return mine; }
 #define OWN_ROW(rows, first, stride) vec4(0.0)
 #define ROW_OF_EIGHT(own, rows, first, stride, k) texelFetch(rows, int((first) + (stride) * (k)))
 #endif
