@@ -26,6 +26,8 @@ void main() {
 #define CHOOSE_ONE(i) \
     if (i < PIXELS && k == i) color = traced.colors[i];
         EIGHT_TIMES(CHOOSE_ONE)
+#undef CHOOSE_ONE
+        if (k >= traced.begun) color = Real3(0.0);
         vec3 shown = vec3(min(color, Real3(3.4028234663852886e38)));
         if (frame.writes_remainder != 0u) shown = vec3(min(color - Real3(shown), Real3(3.4028234663852886e38)));
         float ended = is_ended ? 1.0 : 0.0;

@@ -9,8 +9,8 @@ use common::{TestDevice, render};
 use glam::DVec3;
 use scenes::{light, material, mirror, mixed_scene, primitive, sphere};
 use zerkalo::frame::Frame;
-use zerkalo::plan::Cuts;
-use zerkalo::scene::{Camera, Light, Scene, Solid, gallery};
+use zerkalo::plan::{Cuts, pixels_in_turn};
+use zerkalo::scene::{Camera, LIGHT_LIMIT, Light, Scene, Solid, gallery};
 use zerkalo::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
 
 const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
@@ -24,7 +24,7 @@ fn is_finite(frame: &Frame) -> bool {
 }
 
 #[test]
-fn tiles_and_workgroups_change_no_bit() {
+fn tiles_workgroups_and_pixels_in_turn_change_no_bit() {
     let device = TestDevice::open();
     for precision in PRECISIONS {
         let usual = settings(precision, 151, 67);
@@ -33,6 +33,38 @@ fn tiles_and_workgroups_change_no_bit() {
             let other = render(&device, &mixed_scene(), &Settings { max_tile_side, workgroup, ..usual.clone() });
             assert!(other == whole, "tiles of {max_tile_side}, workgroups of {workgroup:?}");
         }
+        for pixels in [1, 2, 4, 8] {
+            let other = render(&device, &mixed_scene(), &Settings { pixels: Some(pixels), ..usual.clone() });
+            assert!(other == whole, "{pixels} pixels in turn");
+        }
+    }
+}
+
+/// What an invocation cannot end for eight pixels it can end for one.
+#[test]
+fn pixels_that_took_too_long_in_company_are_traced_alone() {
+    let device = TestDevice::open();
+    let on_one_place = Scene {
+        primitives: vec![primitive(sphere(DVec3::Z * 5.0, 1.0), material(0.2, 0.5, 0.3)); 250],
+        ..Scene::default()
+    };
+    let alone = Settings { pixels: Some(1), ..settings(Precision::F32, 96, 64) };
+    let in_company = Settings { pixels: Some(8), ..alone.clone() };
+    assert!(render(&device, &on_one_place, &in_company) == render(&device, &on_one_place, &alone));
+    assert_eq!(pixels_in_turn(&on_one_place, on_one_place.max_depth), 1, "and is not tried");
+}
+
+/// Only primary rays look for the balls of lights, or each ray's turns would grow by the lights' number.
+#[test]
+fn a_room_of_mirrors_with_the_most_lights_ends() {
+    let device = TestDevice::open();
+    let lights = (0..LIGHT_LIMIT as u32).map(|i| light(f64::from(i % 8) - 3.5, 3.0, f64::from(i / 8) - 3.5));
+    let room = Solid::Box { center: DVec3::ZERO, half_size: DVec3::splat(8.0), rotation_degrees: DVec3::ZERO };
+    let primitives = vec![primitive(room, mirror()), primitive(sphere(DVec3::Y * -3.0, 1.0), mirror())];
+    let scene = Scene { lights: lights.collect(), primitives, max_depth: 20, ..Scene::default() };
+    for precision in PRECISIONS {
+        let frame = render(&device, &scene, &settings(precision, 48, 32));
+        assert!(is_finite(&frame), "{}", precision.name());
     }
 }
 

@@ -27,8 +27,9 @@ bool may_meet_a_ball(Ray ray, Light lamp) {
     return may_meet;
 }
 
-// Where the ray meets the nearest ball of a light, and its intensity; at LARGEST, nothing.
-Real ball_ahead(Ray ray, Light lamp, out Real3 intensity) {
+// Where the ray meets the nearest ball of a light, and its intensity; at LARGEST, nothing. Of a ray that does not look for
+// balls, nothing is told, and it takes a single turn.
+Real ball_ahead(Ray ray, Light lamp, bool looks, out Real3 intensity) {
     intensity = Real3(0.0);
     Real t = LARGEST;
     uint i = 0u;
@@ -42,7 +43,7 @@ Real ball_ahead(Ray ray, Light lamp, out Real3 intensity) {
         if (is_seen) intensity = ball_light.intensity;
         t = is_seen ? ball.t : t;
         i++;
-        if (BALLS == 1u || !(i < frame.light_count)) break;
+        if (BALLS == 1u || !(i < frame.light_count && any_of_packet(looks))) break;
     }
     return t;
 }

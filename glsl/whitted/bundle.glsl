@@ -4,7 +4,7 @@
 // From within `spread` of the origin, at an angle to `direction` of no more than the one with this sine and cosine. About
 // the first ray that searches: about the mean of all it would be narrower by less than that takes.
 struct Bundle {
-    vec3 heading;   // where the first ray goes: what lies one behind the other is gone through that way
+    vec3 heading;   // of invocation 0: what lies one behind the other is gone through that way
     vec3 origin;
     vec3 direction; // unit
     float spread;   // with all that rounding may put off; FAR where the rays have no common direction

@@ -65,9 +65,9 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
             own_low = own_box(first);
             own_high = own_box(second);
         }
-        uint order, order_of_second;
+        uint order, same_order;
         Entries low = enter_boxes(own_low, first, beam, order);
-        Entries high = enter_boxes(own_high, second, beam, order_of_second);
+        Entries high = enter_boxes(own_high, second, beam, same_order);
         bool are_backwards = bundle.heading[order] < 0.0;
         uint left = (1u << boxes) - 1u;
         left &= bits_of_packet(boxes_ahead(low, end_of(found)) | boxes_ahead(high, end_of(found)) << 8u);

@@ -138,10 +138,12 @@ Traced trace(View view) {
         Real seen_t = LARGEST;
         if (BALLS > 0u) {
             Real3 intensity;
-            Real ball_t = ball_ahead(ray, lamp, intensity);
-            if (may_see_ball && !is_shadow_ray && ball_t < LARGEST) {
+            bool looks = may_see_ball && !is_shadow_ray && (is_candidate || is_unshaded);
+            Real ball_t = ball_ahead(ray, lamp, looks, intensity);
+            if (looks && ball_t < LARGEST) {
                 seen = intensity;
                 seen_t = ball_t;
+                limit = min(limit, up_to(ball_t));
             }
         }
 

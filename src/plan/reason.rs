@@ -172,7 +172,7 @@ impl fmt::Display for Reason {
             Self::SquareWorkgroup => write!(f, "as many pixels as a wave has lanes, near each other"),
             Self::NoPackets => write!(f, "invocations do not come in packets that go together"),
             Self::PixelsInTurn => write!(f, "a packet of rays that have ended goes on to its next pixels"),
-            Self::LongPixels => write!(f, "a pixel may take as long as the driver lets a loop go on"),
+            Self::LongPixels => write!(f, "a pixel may take long by itself"),
             Self::LightTiles => write!(f, "one submission can trace that much within a second or two"),
             Self::HeavyTiles { largest } => {
                 write!(

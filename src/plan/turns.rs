@@ -19,23 +19,23 @@ const MOST_SOLIDS: usize = 512;
 /// passing.
 const TOUCHED: usize = 1;
 
-/// Of a packet: eight, or the largest power of two so that pixels of rays that go into every box and solve every solid that
-/// they may have to leave the driver's loops time for all of them.
+/// Turns that a search and an exact solve take by themselves.
+const AROUND: u64 = 4;
+
+/// Of a packet: eight, or the largest power of two so that pixels of rays that go into half of the boxes, and solve every
+/// solid that they may have to, leave the driver's loops time for all of them. An estimate: what it is wrong about is
+/// traced once more, pixel by pixel ([`Tracer`](crate::tracer::Tracer)).
 pub fn pixels_in_turn(scene: &Scene, generations: u32) -> u32 {
     if scene.primitives.len() > MOST_SOLIDS {
         return 1;
     }
-    // A turn for each group of eight solids or of boxes, and some for the search itself.
-    let turns =
-        |kind: SolidKind| match scene.primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count() {
-            0 => 0,
-            solids => 2 + solids.div_ceil(Structure::GROUP - 1) as u64,
-        };
-    let search: u64 = SolidKind::ALL.into_iter().map(turns).sum();
+    let count = |kind: SolidKind| scene.primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count();
+    let groups = |solids: usize| solids.div_ceil(Structure::GROUP - 1).div_ceil(2) as u64;
+    let search: u64 = SolidKind::ALL.into_iter().map(|kind| groups(count(kind))).sum();
     // A box that is turned is tried by the upright box around it, which a ray may meet for nothing.
     let solved = (1 + TOUCHED + most_in_one_place(scene) + turned_boxes(scene)) as u64;
     let rays = u64::from(generations) * (1 + scene.lights.len() as u64);
-    let turns = search.saturating_mul(solved).saturating_mul(rays);
+    let turns = (search + AROUND).saturating_mul(solved).saturating_mul(rays);
     let fits = |pixels: &u32| turns.saturating_mul(u64::from(*pixels)) <= u64::from(CPU_LOOP_TURNS);
     std::iter::successors(Some(MOST_PIXELS), |pixels| Some(pixels / 2))
         .find(|pixels| *pixels == 1 || fits(pixels))

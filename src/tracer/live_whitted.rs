@@ -111,7 +111,7 @@ impl LiveWhitted {
             begun.dropped = last_arrays;
             scene.upload(&self.device)?
         };
-        let pipeline = match last_pipeline.filter(|pipeline| pipeline.fits(scene, WORKGROUP)) {
+        let pipeline = match last_pipeline.filter(|pipeline| pipeline.serves(scene, WORKGROUP)) {
             Some(pipeline) => pipeline,
             None => {
                 begun.needs_binding = true;

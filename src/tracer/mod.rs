@@ -123,6 +123,9 @@ pub struct Settings {
     /// The accurate kernel goes down no boxes: each ray looks at every solid. Slow; what the boxes may not change is
     /// tested against it.
     pub without_boxes: bool,
+    /// That an invocation of the accurate kernel traces in turn, where invocations come in packets: 1, 2, 4 or 8, in place
+    /// of what [suits the scene](crate::plan::pixels_in_turn). What that may not change is tested with it.
+    pub pixels: Option<u32>,
     /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See [`sampling`].
     pub samples: u32,
     /// Size of the picture that is traced against the one asked for, to which it is brought by bilinear interpolation;
@@ -142,6 +145,7 @@ impl Settings {
             kernel: Kernel::Course,
             cuts: Cuts::NONE,
             without_boxes: false,
+            pixels: None,
             samples: 1,
             scale: 1.0,
         }
@@ -158,6 +162,7 @@ impl Settings {
             kernel: Kernel::Whitted(plan.precision.choice),
             cuts: plan.cuts,
             without_boxes: false,
+            pixels: None,
             samples: 1,
             scale: 1.0,
         }
@@ -262,20 +267,49 @@ impl Tracer {
         for index in 0..self.target.tiles.len() {
             let tile = self.target.tiles[index];
             let tile_pixels = u64::from(tile.width) * u64::from(tile.height);
-            for sample in 0..self.samples {
-                let time_ns = self.trace(tile, sample)?;
-                gpu_time_ns = gpu_time_ns.zip(time_ns).map(|(sum, time)| sum + time);
-                if sample + 1 == self.samples {
-                    self.take_pixels(tile, frame)?;
+            let samples = u64::from(self.samples);
+            let mut progress = |done| progress(pixels_done + tile_pixels * u64::from(done) / samples);
+            let time_ns = match self.draw_tile(tile, frame, &mut progress) {
+                // How long pixels take in company is an estimate.
+                Err(TracerError::GaveUp { .. }) if self.trace_one_by_one()? => {
+                    self.draw_tile(tile, frame, &mut progress)?
                 }
-                let done = pixels_done + tile_pixels * u64::from(sample + 1) / u64::from(self.samples);
-                if progress(done).is_break() {
-                    return Err(TracerError::Stopped);
-                }
-            }
+                drawn => drawn?,
+            };
+            gpu_time_ns = gpu_time_ns.zip(time_ns).map(|(sum, time)| sum + time);
             pixels_done += tile_pixels;
         }
         Ok(gpu_time_ns)
+    }
+
+    /// Draws a tile and returns its GPU time; `progress` hears of each sample.
+    fn draw_tile(
+        &mut self,
+        tile: Tile,
+        frame: &mut Frame,
+        progress: &mut dyn FnMut(u32) -> ControlFlow<()>,
+    ) -> Result<Option<u64>, TracerError> {
+        let mut gpu_time_ns = self.timer.as_ref().map(|_| 0);
+        for sample in 0..self.samples {
+            let time_ns = self.trace(tile, sample)?;
+            gpu_time_ns = gpu_time_ns.zip(time_ns).map(|(sum, time)| sum + time);
+            if sample + 1 == self.samples {
+                self.take_pixels(tile, frame)?;
+            }
+            if progress(sample + 1).is_break() {
+                return Err(TracerError::Stopped);
+            }
+        }
+        Ok(gpu_time_ns)
+    }
+
+    /// See [`SceneKernel::trace_one_by_one`].
+    fn trace_one_by_one(&mut self) -> Result<bool, GpuError> {
+        let is_other = self.kernel.trace_one_by_one(&self.device)?;
+        if is_other {
+            self.set = self.kernel.bind(&self.target.traced)?;
+        }
+        Ok(is_other)
     }
 
     /// What was read back of a tile, into its place in `frame`.

@@ -19,14 +19,31 @@ pub(super) fn largest_side(device: &DeviceDescription) -> u32 {
 
 /// Refuses a picture that the device lets no kernel draw whole.
 pub(super) fn check_picture(device: &DeviceDescription, [width, height]: [u32; 2]) -> Result<(), TracerError> {
+    check(&device.name, device.max_storage_bytes, [width, height])
+}
+
+fn check(device: &str, limit: u64, [width, height]: [u32; 2]) -> Result<(), TracerError> {
     let bytes = u64::from(width) * u64::from(height) * PIXEL_BYTES;
-    let limit = device.max_storage_bytes;
     if bytes > limit {
         return Err(TracerError::Refused(format!(
-            "a picture of {width}x{height} pixels is too large for device '{}' in one piece: it takes {bytes} B, and a \
-             kernel sees {limit} B there; a smaller scale works",
-            device.name
+            "a picture of {width}x{height} pixels is too large for device '{device}' in one piece: it takes {bytes} B, \
+             and a kernel sees {limit} B there; a smaller scale works"
         )));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::check;
+
+    #[test]
+    fn a_picture_that_no_kernel_sees_whole_is_refused_in_one_line() {
+        assert!(check("small", 1 << 27, [3840, 2160]).is_ok());
+        let line = check("small", 1 << 27, [5120, 2880]).unwrap_err().to_string();
+        assert!(!line.contains('\n'), "{line}");
+        for part in ["5120x2880", "'small'", "235929600 B", "134217728 B", "scale"] {
+            assert!(line.contains(part), "{part} is missing in: {line}");
+        }
+    }
 }

@@ -45,7 +45,7 @@ impl Requirements {
         }
     }
 
-    /// The specialization constants of `glsl/whitted/real.glsl`, `scene.glsl` and `whitted.comp`.
+    /// The specialization constants of `glsl/whitted/real.glsl`, `scene.glsl`, `camera.glsl` and `whitted.comp`.
     ///
     /// # Errors
     /// The device fails when its arithmetic is tried.

@@ -66,6 +66,17 @@ impl SceneKernel {
         Ok(())
     }
 
+    /// From now on each pixel is traced by itself; tells whether that is another way than before.
+    pub fn trace_one_by_one(&mut self, device: &Arc<Device>) -> Result<bool, GpuError> {
+        match self {
+            Self::Whitted { pipeline, .. } if pipeline.pixels > 1 => {
+                *pipeline = pipeline.one_by_one(device)?;
+                Ok(true)
+            }
+            Self::Whitted { .. } | Self::Course { .. } => Ok(false),
+        }
+    }
+
     /// Where it draws a tile of so many pixels.
     pub fn picture(&self, device: &Arc<Device>, name: &str, [width, height]: [u32; 2]) -> Result<Resource, GpuError> {
         Ok(match self {
@@ -130,8 +141,9 @@ fn whitted_scene(
     settings: &Settings,
     max_depth: u32,
 ) -> Result<WhittedScene, TracerError> {
-    let &Settings { width, height, kernel, cuts, without_boxes, .. } = settings;
+    let &Settings { width, height, kernel, cuts, without_boxes, pixels, .. } = settings;
     let size = [width, height];
     let scene = WhittedScene::new(device, scene, kernel, cuts, max_depth, size)?.sampled(settings.sampling(), size);
-    Ok(if without_boxes { scene.without_boxes() } else { scene })
+    let scene = if without_boxes { scene.without_boxes() } else { scene };
+    Ok(if let Some(pixels) = pixels { scene.in_turn(pixels) } else { scene })
 }

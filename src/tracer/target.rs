@@ -45,7 +45,9 @@ impl Target {
     ) -> Result<Self, TracerError> {
         let &Settings { width, height, scale, .. } = settings;
         let size = [width, height];
-        let traced_side = traced_side(scene, settings, max_depth, largest_side(device.description()));
+        // A tile brought to its size may need the neighbours of its edge.
+        let largest = largest_side(device.description()) - if scale < 1.0 { 2 } else { 0 };
+        let traced_side = traced_side(scene, settings, max_depth, largest);
         let tile_side = shown_side(traced_side, scale, device);
         let tile = size.map(|side| side.min(tile_side));
         let image = |name, [width, height]: [u32; 2]| {

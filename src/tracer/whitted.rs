@@ -210,6 +210,12 @@ impl WhittedScene {
         self
     }
 
+    /// For [`Settings::pixels`](super::Settings).
+    pub fn in_turn(mut self, pixels: u32) -> Self {
+        self.requirements.pixels = pixels;
+        self
+    }
+
     /// For [`Settings::without_boxes`](super::Settings).
     pub fn without_boxes(mut self) -> Self {
         self.requirements.levels = [0; 4];
@@ -239,11 +245,20 @@ pub(super) struct WhittedPipeline {
 
 impl WhittedPipeline {
     pub fn new(device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
-        let precision = scene.kernel.precision();
+        Self::made(device, scene.kernel, scene.requirements, workgroup)
+    }
+
+    fn made(
+        device: &Arc<Device>,
+        kernel: Kernel,
+        requirements: Requirements,
+        workgroup: [u32; 2],
+    ) -> Result<Self, GpuError> {
+        let precision = kernel.precision();
         let mut bindings = vec![BindingKind::Pixels];
         bindings.extend(scene_bindings(precision));
         let octets = come_in_packets(device, workgroup);
-        let shader = match (scene.kernel, octets) {
+        let shader = match (kernel, octets) {
             (Kernel::Whitted(Precision::F64), false) => &shaders::WHITTED_F64,
             (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_OCTETS,
             (Kernel::Whitted(Precision::F32), false) => &shaders::WHITTED_F32,
@@ -255,17 +270,30 @@ impl WhittedPipeline {
             shader,
             bindings: &bindings,
             push_constant_bytes: size_of::<WhittedFrame>() as u32,
-            constants: &scene.requirements.constants(device, precision, workgroup)?,
+            constants: &requirements.constants(device, precision, workgroup)?,
         };
         let pipeline = ComputePipeline::new(device, &description)?;
-        let pixels = in_turn(scene.requirements.pixels, device, workgroup);
-        Ok(Self { pipeline, kernel: scene.kernel, requirements: scene.requirements, workgroup, pixels })
+        let pixels = in_turn(requirements.pixels, device, workgroup);
+        Ok(Self { pipeline, kernel, requirements, workgroup, pixels })
+    }
+
+    /// The same for pixels that are traced each by itself.
+    pub fn one_by_one(&self, device: &Arc<Device>) -> Result<Self, GpuError> {
+        Self::made(device, self.kernel, Requirements { pixels: 1, ..self.requirements }, self.workgroup)
     }
 
     /// Whether it draws that scene too.
     pub fn fits(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
         let &Self { kernel, requirements, workgroup: own_workgroup, .. } = self;
         (kernel, requirements, own_workgroup) == (scene.kernel, scene.requirements, workgroup)
+    }
+
+    /// Whether it draws that scene too, if perhaps by fewer pixels in turn.
+    pub fn serves(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
+        let &Self { kernel, requirements, workgroup: own_workgroup, .. } = self;
+        let own = Requirements { pixels: requirements.pixels, ..scene.requirements };
+        requirements.pixels <= scene.requirements.pixels
+            && (kernel, requirements, own_workgroup) == (scene.kernel, own, workgroup)
     }
 
     /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.
