@@ -1,4 +1,4 @@
-// Eight boxes of a hierarchy's level.
+// Eight boxes of a hierarchy's level, and the up to sixteen that are a level alone.
 
 // Where the ray enters each, by the bits of t; NOT_MET.
 struct Entries {

@@ -41,7 +41,7 @@ void TRY_EIGHT(uint group, int entry, bool counts, Beam beam, Bundle bundle, ino
 #undef TRY_ONE
 }
 
-// A ray, or a packet of eight, goes down group by group: `left` keeps, from bit 8 * (h - 2) on, which boxes of level h,
+// A level that is alone is entered whole. Down several, a ray or a packet of eight goes group by group: `left` keeps, from bit 8 * (h - 2) on, which boxes of level h,
 // in their order, are still to be gone into. Those of level 1 are gone into at once. What a level holds backwards has
 // its bit in `backwards`.
 void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {

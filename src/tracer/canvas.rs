@@ -281,8 +281,8 @@ impl Canvas {
         } else if self.sweep.left() == 0 || self.is_in_place {
             self.begin(recorder)?;
         }
-        let groups = self.timing.pace.groups().min(self.sweep.left());
-        let Some(scene) = self.current.as_ref().filter(|_| groups > 0) else { return Ok(()) };
+        let blocks = self.timing.pace.blocks().min(self.sweep.left());
+        let Some(scene) = self.current.as_ref().filter(|_| blocks > 0) else { return Ok(()) };
         if !self.is_in_place && self.begun_at.elapsed() > LONG {
             // Longer than expected: from here on it is seen.
             self.shown = 1 - self.shown;
@@ -290,7 +290,7 @@ impl Canvas {
         }
         let target = if self.is_in_place { self.shown } else { 1 - self.shown };
         let Some(set) = self.images[target].set.clone() else { return Ok(()) };
-        let parts = self.sweep.take(groups);
+        let parts = self.sweep.take(blocks);
         let is_last = self.sweep.left() == 0;
         let timer = self.timing.timer(place);
         recorder.labelled("trace", |recorder| {
@@ -312,7 +312,7 @@ impl Canvas {
             timer.iter().for_each(|timer| recorder.stop(timer));
             Ok(())
         })?;
-        let chunk = Chunk { picture: self.begun, groups, is_last, begun_at: self.begun_at, submitted: Instant::now() };
+        let chunk = Chunk { picture: self.begun, blocks, is_last, begun_at: self.begun_at, submitted: Instant::now() };
         self.timing.submitted(place, chunk);
         Ok(())
     }

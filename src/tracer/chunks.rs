@@ -70,8 +70,8 @@ impl Sweep {
 /// How many blocks to trace at once, so that whoever waits for the device need not wait long.
 #[derive(Debug)]
 pub(super) struct Pace {
-    groups: u64,
-    ns_per_group: Option<f64>,
+    blocks: u64,
+    ns_per_block: Option<f64>,
 }
 
 impl Pace {
@@ -79,7 +79,7 @@ impl Pace {
     /// panel that takes a CPU device another 20 ms to draw answers within the 100 ms that people take for at once.
     const CHUNK_NS: f64 = 20e6;
     /// Before anything is known: little even at eight milliseconds each, more than the slowest kernel took on two cores.
-    const FIRST_GROUPS: u64 = 2;
+    const FIRST_BLOCKS: u64 = 2;
     /// The next rows may be dearer than the last: the pace rises no faster than this, and falls at once.
     const LARGEST_RISE: u64 = 4;
 
@@ -87,22 +87,22 @@ impl Pace {
     const MEMORY: f64 = 0.7;
 
     pub fn new() -> Self {
-        Self { groups: Self::FIRST_GROUPS, ns_per_group: None }
+        Self { blocks: Self::FIRST_BLOCKS, ns_per_block: None }
     }
 
-    pub fn groups(&self) -> u64 {
-        self.groups
+    pub fn blocks(&self) -> u64 {
+        self.blocks
     }
 
-    pub fn measured(&mut self, groups: u64, time_ns: u64) {
-        if groups == 0 {
+    pub fn measured(&mut self, blocks: u64, time_ns: u64) {
+        if blocks == 0 {
             return;
         }
-        let measured = (time_ns.max(1) as f64) / groups as f64;
-        let ns_per_group = self.ns_per_group.map_or(measured, |last| measured.max(last * Self::MEMORY));
-        self.ns_per_group = Some(ns_per_group);
-        let fitting = (Self::CHUNK_NS / ns_per_group) as u64;
-        self.groups = fitting.clamp(1, (groups.max(Self::FIRST_GROUPS)) * Self::LARGEST_RISE);
+        let measured = (time_ns.max(1) as f64) / blocks as f64;
+        let ns_per_block = self.ns_per_block.map_or(measured, |last| measured.max(last * Self::MEMORY));
+        self.ns_per_block = Some(ns_per_block);
+        let fitting = (Self::CHUNK_NS / ns_per_block) as u64;
+        self.blocks = fitting.clamp(1, (blocks.max(Self::FIRST_BLOCKS)) * Self::LARGEST_RISE);
     }
 }
 
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sweep_takes_every_workgroup_once_in_chunks_of_any_size() {
+    fn a_sweep_takes_every_block_once_in_chunks_of_any_size() {
         for (columns, rows) in [(1, 1), (5, 1), (1, 7), (13, 8), (203, 88)] {
             for count in [1, 2, 7, 64, 1000, u64::MAX] {
                 let mut sweep = Sweep::new([columns, rows]);
@@ -168,24 +168,24 @@ mod tests {
         let mut pace = Pace::new();
         let mut groups = Vec::new();
         for _ in 0..8 {
-            pace.measured(pace.groups(), pace.groups() * 100_000);
-            groups.push(pace.groups());
+            pace.measured(pace.blocks(), pace.blocks() * 100_000);
+            groups.push(pace.blocks());
         }
         assert_eq!(groups, [8, 32, 128, 200, 200, 200, 200, 200], "100 µs each: 200 of them take 20 ms");
         pace.measured(200, 200_000_000);
-        assert_eq!(pace.groups(), 20);
+        assert_eq!(pace.blocks(), 20);
         pace.measured(20, u64::MAX);
-        assert_eq!(pace.groups(), 1, "never nothing");
-        (0..200).for_each(|_| pace.measured(pace.groups(), 0));
-        assert!(pace.groups() > 1, "a clock that stands still");
+        assert_eq!(pace.blocks(), 1, "never nothing");
+        (0..200).for_each(|_| pace.measured(pace.blocks(), 0));
+        assert!(pace.blocks() > 1, "a clock that stands still");
     }
 
     #[test]
     fn a_dear_chunk_is_remembered_over_a_cheap_one() {
         let mut pace = Pace::new();
         pace.measured(16, 16_000_000);
-        assert_eq!(pace.groups(), 20);
+        assert_eq!(pace.blocks(), 20);
         pace.measured(20, 20_000);
-        assert_eq!(pace.groups(), 28, "20 ms at 0.7 ms each");
+        assert_eq!(pace.blocks(), 28, "20 ms at 0.7 ms each");
     }
 }

@@ -252,7 +252,7 @@ impl Tracer {
         Frame::new(self.width, self.height)
     }
 
-    /// Draws the picture into `frame` and returns the GPU time of all its tiles, copies left out, in nanoseconds;
+    /// Draws the picture into `frame` and returns the GPU time of all its tiles, copies to the host left out, in nanoseconds;
     /// `None` where the device has no timestamps.
     ///
     /// `progress` hears of the pixels done after each sample of each tile and can stop the work there.

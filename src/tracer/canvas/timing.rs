@@ -10,7 +10,7 @@ use crate::tracer::chunks::Pace;
 pub(super) struct Chunk {
     /// Of which picture, by [`Canvas::begun`](super::Canvas).
     pub picture: u64,
-    pub groups: u64,
+    pub blocks: u64,
     pub is_last: bool,
     pub begun_at: Instant,
     pub submitted: Instant,
@@ -26,7 +26,7 @@ struct Place {
 pub(super) struct Timing {
     /// What each place of the ring has in flight, if anything.
     places: [Place; InFlight::COUNT],
-    /// How many groups a chunk is to have.
+    /// How many blocks a chunk is to have.
     pub pace: Pace,
     /// The first picture whose time is of interest: those before were of another size or by another kernel.
     pub first_of_interest: u64,
@@ -74,7 +74,7 @@ impl Timing {
         let time_ns = timer.as_deref().map(Timer::elapsed_ns).transpose()?;
         // Without timestamps, what the host saw is at least an upper bound.
         let at_most_ns = || chunk.submitted.elapsed().as_nanos() as u64;
-        self.pace.measured(chunk.groups, time_ns.unwrap_or_else(at_most_ns));
+        self.pace.measured(chunk.blocks, time_ns.unwrap_or_else(at_most_ns));
         // Chunks come in as they went out: none of an older picture follows one of a newer.
         if self.timed.0 != chunk.picture {
             self.timed = (chunk.picture, Some(0));
