@@ -22,12 +22,11 @@ void main() {
     for (uint k = 0u;;) {
         uvec2 pixel = tile_pixel(k);
         bool is_ended = k + 1u < traced.begun || (k + 1u == traced.begun && turns < LOOP_TURNS);
-        Real3 color = traced.colors[0];
+        Real3 color = Real3(0.0);
 #define CHOOSE_ONE(i) \
-    if (i < PIXELS && k == i) color = traced.colors[i];
+    if (i < PIXELS && k == i && i < traced.begun) color = traced.colors[i];
         EIGHT_TIMES(CHOOSE_ONE)
 #undef CHOOSE_ONE
-        if (k >= traced.begun) color = Real3(0.0);
         vec3 shown = vec3(min(color, Real3(3.4028234663852886e38)));
         if (frame.writes_remainder != 0u) shown = vec3(min(color - Real3(shown), Real3(3.4028234663852886e38)));
         float ended = is_ended ? 1.0 : 0.0;

@@ -9,7 +9,7 @@ use common::{TestDevice, render};
 use glam::DVec3;
 use scenes::{light, material, mirror, mixed_scene, primitive, sphere};
 use zerkalo::frame::Frame;
-use zerkalo::plan::{Cuts, pixels_in_turn};
+use zerkalo::plan::{Crowd, Cuts};
 use zerkalo::scene::{Camera, LIGHT_LIMIT, Light, Scene, Solid, gallery};
 use zerkalo::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
 
@@ -51,7 +51,8 @@ fn pixels_that_took_too_long_in_company_are_traced_alone() {
     let alone = Settings { pixels: Some(1), ..settings(Precision::F32, 96, 64) };
     let in_company = Settings { pixels: Some(8), ..alone.clone() };
     assert!(render(&device, &on_one_place, &in_company) == render(&device, &on_one_place, &alone));
-    assert_eq!(pixels_in_turn(&on_one_place, on_one_place.max_depth), 1, "and is not tried");
+    let Scene { primitives, lights, max_depth, .. } = &on_one_place;
+    assert_eq!(Crowd::of(primitives).pixels_in_turn(lights.len(), *max_depth), 1, "and is not tried");
 }
 
 /// Only primary rays look for the balls of lights, or each ray's turns would grow by the lights' number.

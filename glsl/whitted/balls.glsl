@@ -12,15 +12,19 @@ bool may_meet_ball(Ray ray, Light light) {
     return dot(across, across) <= radius * radius && ahead >= -radius;
 }
 
-// Of any light; `lamp`: the only one, where there is but one.
+// `lamp`: the only one, where there is but one.
+Light light_with_ball(uint index, Light lamp) {
+    if (BALLS > 1u) return light(index);
+    return lamp;
+}
+
+// Of any light.
 bool may_meet_a_ball(Ray ray, Light lamp) {
     bool may_meet = false;
     uint i = 0u;
     for (;;) {
         turns++;
-        Light ball_light = lamp;
-        if (BALLS > 1u) ball_light = light(i);
-        may_meet = may_meet || may_meet_ball(ray, ball_light);
+        may_meet = may_meet || may_meet_ball(ray, light_with_ball(i, lamp));
         i++;
         if (BALLS == 1u || !(i < frame.light_count)) break;
     }
@@ -35,8 +39,7 @@ Real ball_ahead(Ray ray, Light lamp, bool looks, out Real3 intensity) {
     uint i = 0u;
     for (;;) {
         turns++;
-        Light ball_light = lamp;
-        if (BALLS > 1u) ball_light = light(i);
+        Light ball_light = light_with_ball(i, lamp);
         Hit ball;
         bool is_met = meet(Sphere(ball_light.position, ball_light.ball_radius), ray, FREE, CURVED, ball);
         bool is_seen = i < frame.light_count && is_met && ball.t < t;

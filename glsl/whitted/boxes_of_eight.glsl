@@ -35,8 +35,10 @@ struct OwnBox {
 
 OwnBox own_box(uint first) { return OwnBox(OWN_ROW(outlines, first, 2u), OWN_ROW(outlines, first + 1u, 2u)); }
 
-// Of the eight that begin in row `first`; `order`: the axis along which they lie one behind the other.
-Entries enter_boxes(OwnBox own, uint first, Beam beam, out uint order) {
+// The axis along which the eight lie one behind the other that begin in row `first`.
+uint order_of_boxes(OwnBox own, uint first) { return uint(ROW_OF_EIGHT(own.half_size, outlines, first + 1u, 2u, 0u).w); }
+
+Entries enter_boxes(OwnBox own, uint first, Beam beam) {
     vec3 steepness = abs(beam.inverse);
     Entries entries;
 #define ENTER_ONE(k)                                                                                   \
@@ -49,7 +51,6 @@ Entries enter_boxes(OwnBox own, uint first, Beam beam, out uint order) {
     }
     EIGHT_TIMES(ENTER_ONE)
 #undef ENTER_ONE
-    order = uint(ROW_OF_EIGHT(own.half_size, outlines, first + 1u, 2u, 0u).w);
     return entries;
 }
 

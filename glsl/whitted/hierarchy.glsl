@@ -41,9 +41,9 @@ void TRY_EIGHT(uint group, int entry, bool counts, Beam beam, Bundle bundle, ino
 #undef TRY_ONE
 }
 
-// A level that is alone is entered whole. Down several, a ray or a packet of eight goes group by group: `left` keeps, from bit 8 * (h - 2) on, which boxes of level h,
-// in their order, are still to be gone into. Those of level 1 are gone into at once. What a level holds backwards has
-// its bit in `backwards`.
+// A level that is alone is entered whole. Down several, a ray or a packet of eight goes group by group: `left` keeps, from
+// bit 8 * (h - 2) on, which boxes of level h, in their order, are still to be gone into. Those of level 1 are gone into at
+// once. What a level holds backwards has its bit in `backwards`.
 void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
     uint count = frame.counts[KIND];
     if (!is_searching) found.limit = HIDDEN;
@@ -65,10 +65,8 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
             own_low = own_box(first);
             own_high = own_box(second);
         }
-        uint order, same_order;
-        Entries low = enter_boxes(own_low, first, beam, order);
-        Entries high = enter_boxes(own_high, second, beam, same_order);
-        bool are_backwards = bundle.heading[order] < 0.0;
+        Entries low = enter_boxes(own_low, first, beam), high = enter_boxes(own_high, second, beam);
+        bool are_backwards = bundle.heading[order_of_boxes(own_low, first)] < 0.0;
         uint left = (1u << boxes) - 1u;
         left &= bits_of_packet(boxes_ahead(low, end_of(found)) | boxes_ahead(high, end_of(found)) << 8u);
         for (;;) {
@@ -115,11 +113,11 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
 
                 uint first = rows[1];
                 [[unroll]] for (uint h = 2u; h <= 6u; h++) first = h <= LEVELS && level == h ? rows[h] : first;
-                uint order;
                 first += 16u * group;
-                entries = enter_boxes(own_box(first), first, beam, order);
+                OwnBox own = own_box(first);
+                entries = enter_boxes(own, first, beam);
                 leaves = bits_of_packet(boxes_ahead(entries, end_of(found)));
-                are_leaves_backwards = bundle.heading[order] < 0.0;
+                are_leaves_backwards = bundle.heading[order_of_boxes(own, first)] < 0.0;
                 uint met = are_leaves_backwards ? bitfieldReverse(leaves) >> 24 : leaves;
                 uint backwards_bit = 1u << (level - 1u);
                 backwards = are_leaves_backwards ? backwards | backwards_bit : backwards & ~backwards_bit;

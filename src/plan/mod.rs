@@ -23,7 +23,7 @@ pub use budget::{Bounds, Cuts};
 pub use precision::Precision;
 pub use reason::{Line, Reason};
 pub use tiling::tile_side;
-pub use turns::{CPU_LOOP_TURNS, MOST_PIXELS, pixels_in_turn};
+pub use turns::{CPU_LOOP_TURNS, Crowd, MOST_PIXELS};
 
 use glam::DVec3;
 use thiserror::Error;
@@ -286,7 +286,7 @@ fn check_arrays(scene: &Scene, counts: [usize; 4], precision: Precision, limits:
 
 fn upright_boxes(scene: &Scene, counts: [usize; 4]) -> Decision<bool> {
     let boxes = counts[SolidKind::Box as usize];
-    let turned = turned_boxes(scene);
+    let turned = turned_boxes(&scene.primitives);
     let reason = match (boxes, turned) {
         (0, _) => Reason::NoBoxes,
         (_, 0) => Reason::NoBoxTurned,

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::scene::{Scene, Solid, world_from_box};
+use crate::scene::{Primitive, Scene, Solid, world_from_box};
 
 /// The largest of a solid's lengths.
 pub(super) fn size(solid: &Solid) -> f64 {
@@ -62,12 +62,12 @@ pub(super) fn is_lone_and_seen_from_outside(scene: &Scene) -> bool {
 }
 
 /// Boxes whose axes are not the world's.
-pub(super) fn turned_boxes(scene: &Scene) -> usize {
+pub(super) fn turned_boxes(primitives: &[Primitive]) -> usize {
     let is_turned = |solid: &Solid| match *solid {
         Solid::Box { rotation_degrees, .. } => world_from_box(rotation_degrees) != glam::DMat3::IDENTITY,
         Solid::Sphere { .. } | Solid::Cylinder { .. } | Solid::Cone { .. } => false,
     };
-    scene.primitives.iter().filter(|primitive| is_turned(&primitive.solid)).count()
+    primitives.iter().filter(|primitive| is_turned(&primitive.solid)).count()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::solids::turned_boxes;
 use super::{Decision, Limits, Reason, Structure};
-use crate::scene::{BoundingSphere, Scene, SolidKind};
+use crate::scene::{BoundingSphere, Primitive, Scene, SolidKind};
 
 /// Turns of all its loops together that an invocation may take on a CPU driver. Mesa's leave a loop after 65535 without a
 /// word; this is below by more than a last search among all kinds takes to end.
@@ -12,7 +12,7 @@ pub const CPU_LOOP_TURNS: u32 = 60_000;
 /// the search, and reads the camera once.
 pub const MOST_PIXELS: u32 = 8;
 
-/// Scenes of more are not looked at: their pixels take long by themselves, and gain little by company.
+/// More solids are not looked at: their pixels take long by themselves, and gain little by company.
 const MOST_SOLIDS: usize = 512;
 
 /// Solids that a ray may have to solve exactly besides those that it may meet at one place: an outline that it touches in
@@ -22,30 +22,48 @@ const TOUCHED: usize = 1;
 /// Turns that a search and an exact solve take by themselves.
 const AROUND: u64 = 4;
 
-/// Of a packet: eight, or the largest power of two so that pixels of rays that go into half of the boxes, and solve every
-/// solid that they may have to, leave the driver's loops time for all of them. An estimate: what it is wrong about is
-/// traced once more, pixel by pixel ([`Tracer`](crate::tracer::Tracer)).
-pub fn pixels_in_turn(scene: &Scene, generations: u32) -> u32 {
-    if scene.primitives.len() > MOST_SOLIDS {
-        return 1;
-    }
-    let count = |kind: SolidKind| scene.primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count();
-    let groups = |solids: usize| solids.div_ceil(Structure::GROUP - 1).div_ceil(2) as u64;
-    let search: u64 = SolidKind::ALL.into_iter().map(|kind| groups(count(kind))).sum();
-    // A box that is turned is tried by the upright box around it, which a ray may meet for nothing.
-    let solved = (1 + TOUCHED + most_in_one_place(scene) + turned_boxes(scene)) as u64;
-    let rays = u64::from(generations) * (1 + scene.lights.len() as u64);
-    let turns = (search + AROUND).saturating_mul(solved).saturating_mul(rays);
-    let fits = |pixels: &u32| turns.saturating_mul(u64::from(*pixels)) <= u64::from(CPU_LOOP_TURNS);
-    std::iter::successors(Some(MOST_PIXELS), |pixels| Some(pixels / 2))
-        .find(|pixels| *pixels == 1 || fits(pixels))
-        .unwrap_or(1)
+/// What a ray may have to do among some primitives.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Crowd {
+    /// Of one search and the solve after it, in half of the boxes.
+    turns: u64,
+    /// How many of these at most.
+    solved: u64,
 }
 
-/// No more solids than that have a point in common: a ray may have to solve all that it meets at its first hit, to the
-/// rounding of their outlines.
-fn most_in_one_place(scene: &Scene) -> usize {
-    let spheres: Vec<_> = scene.primitives.iter().map(|primitive| BoundingSphere::of(&primitive.solid)).collect();
+impl Crowd {
+    /// Takes time by the square of their number, up to 512 of them.
+    pub fn of(primitives: &[Primitive]) -> Self {
+        if primitives.len() > MOST_SOLIDS {
+            return Self { turns: u64::MAX, solved: u64::MAX };
+        }
+        let count = |kind: SolidKind| primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count();
+        // A turn for each group of eight solids, or of eight boxes over them.
+        let groups = |solids: usize| solids.div_ceil(Structure::GROUP - 1).div_ceil(2) as u64;
+        let search: u64 = SolidKind::ALL.into_iter().map(|kind| groups(count(kind))).sum();
+        // A box that is turned is tried by the upright box around it, which a ray may meet for nothing.
+        let solved = 1 + TOUCHED + most_in_one_place(primitives) + turned_boxes(primitives);
+        Self { turns: search + AROUND, solved: solved as u64 }
+    }
+
+    /// How many pixels a packet's invocations trace in turn: eight, or the largest power of two so that the driver's loops
+    /// have time for all of them. An estimate: what it is wrong about, a tracer traces once more, pixel by pixel.
+    pub fn pixels_in_turn(self, lights: usize, generations: u32) -> u32 {
+        let rays = u64::from(generations) * (1 + lights as u64);
+        let turns = self.turns.saturating_mul(self.solved).saturating_mul(rays);
+        let fits = |pixels: u32| turns.saturating_mul(pixels.into()) <= CPU_LOOP_TURNS.into();
+        let mut pixels = MOST_PIXELS;
+        while pixels > 1 && !fits(pixels) {
+            pixels /= 2;
+        }
+        pixels
+    }
+}
+
+/// No more solids than that have a point in common: a ray may have to solve all that it meets at its first hit. Outlines are
+/// larger than solids by some millionths; a thousandth is more than that by far, and counts hardly any more.
+fn most_in_one_place(primitives: &[Primitive]) -> usize {
+    let spheres: Vec<_> = primitives.iter().map(|primitive| BoundingSphere::of(&primitive.solid)).collect();
     let touch =
         |a: &BoundingSphere, b: &BoundingSphere| a.center.distance(b.center) <= (a.radius + b.radius) * (1.0 + 1e-3);
     spheres.iter().map(|a| spheres.iter().filter(|b| touch(a, b)).count()).max().unwrap_or_default()
@@ -55,7 +73,7 @@ pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decisi
     if !limits.packets {
         return Decision { choice: 1, reason: Reason::NoPackets };
     }
-    let choice = pixels_in_turn(scene, generations);
+    let choice = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), generations);
     Decision { choice, reason: if choice > 1 { Reason::PixelsInTurn } else { Reason::LongPixels } }
 }
 
@@ -66,6 +84,10 @@ mod tests {
 
     fn scene(name: &str) -> Scene {
         gallery::scene(name).unwrap()
+    }
+
+    fn pixels_in_turn(scene: &Scene, generations: u32) -> u32 {
+        Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), generations)
     }
 
     #[test]
@@ -87,7 +109,7 @@ mod tests {
     fn solids_in_one_place_are_solved_one_after_another() {
         let sphere = scene("sphere").primitives[0].clone();
         let on_one_place = |count| Scene { primitives: vec![sphere.clone(); count], ..Scene::default() };
-        assert_eq!(most_in_one_place(&on_one_place(100)), 100);
+        assert_eq!(most_in_one_place(&on_one_place(100).primitives), 100);
         assert_eq!(pixels_in_turn(&on_one_place(100), 20), 1);
         assert_eq!(pixels_in_turn(&on_one_place(3), 20), 8);
         assert_eq!(pixels_in_turn(&on_one_place(30), 20), 4, "fewer at a time");

@@ -9,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::chunks::{Pace, Sweep};
 use super::live_kernel::{LiveKernel, State};
+use super::pixels::pixel_buffer;
 use super::sampling::Sampling;
 use super::{Kernel, TracerError, Work};
 use crate::gpu::{Device, GpuError, InFlight, Recorder, Resource, Shader, Use};
@@ -33,6 +34,9 @@ pub struct Canvas {
     kind: Kernel,
     course_shader: Shader,
     images: [Image; 2],
+    /// Where a kernel draws that does not draw into an image: the picture begun last, which goes on from there into its
+    /// image.
+    pixels: Option<Resource>,
     shown: usize,
     /// Where the images are smaller than the picture.
     enlarging: Option<Enlarging>,
@@ -63,6 +67,7 @@ impl Canvas {
         let kernel = LiveKernel::new(device, Kernel::Course, shader)?;
         Ok(Self {
             images: images(device, size)?,
+            pixels: None,
             sweep: Sweep::new(LiveKernel::blocks(size)),
             kernel,
             kind: Kernel::Course,
@@ -124,10 +129,8 @@ impl Canvas {
     fn replace_kernel(&mut self, kernel: LiveKernel, kind: Kernel) {
         self.kernel = kernel;
         self.kind = kind;
-        for image in &mut self.images {
-            image.set = None;
-            self.dropped.extend(image.pixels.take());
-        }
+        self.images.iter_mut().for_each(|image| image.set = None);
+        self.dropped.extend(self.pixels.take());
         self.timing.pace = Pace::new();
         self.forget_scene();
     }
@@ -173,7 +176,9 @@ impl Canvas {
         };
         for old in std::mem::replace(&mut self.images, images) {
             in_flight.forget(&old.resource);
-            old.pixels.iter().for_each(|pixels| in_flight.forget(pixels));
+        }
+        if let Some(old) = self.pixels.take() {
+            in_flight.forget(&old);
         }
         if let Some(old) = std::mem::replace(&mut self.enlarging, enlarging) {
             in_flight.forget(&old.picture);
@@ -296,9 +301,11 @@ impl Canvas {
         recorder.labelled("trace", |recorder| {
             timer.iter().for_each(|timer| recorder.start(timer));
             // The barrier comes after the timer's start: with a framebuffer around, lavapipe takes a time only at the next.
-            self.images[target].make_ready(recorder);
+            recorder.make_ready(self.pixels.as_ref().unwrap_or(&self.images[target].resource), Use::ShaderWrite);
             self.kernel.record(recorder, &set, scene, self.sample, &parts);
-            self.images[target].bring_up_to_date(recorder, &parts);
+            if let Some(pixels) = &self.pixels {
+                self.images[target].take_blocks(recorder, pixels, &parts);
+            }
             if is_last {
                 self.shown = target;
             }
@@ -331,9 +338,12 @@ impl Canvas {
         let begun = self.kernel.begin(recorder, &scene)?;
         self.uploaded_bytes += begun.uploaded;
         self.dropped.extend(begun.dropped);
+        if self.kernel.draws_pixels() && self.pixels.is_none() {
+            self.pixels = Some(pixel_buffer(&self.device, "pixels", self.sampling.traced_size(self.size))?);
+        }
         for image in &mut self.images {
             if begun.needs_binding || image.set.is_none() {
-                image.bind(&self.device, &self.kernel)?;
+                image.set = self.kernel.bind(self.pixels.as_ref().unwrap_or(&image.resource))?;
             }
         }
         self.current = Some(scene);

@@ -14,7 +14,7 @@ use super::whitted::{WhittedPipeline, WhittedScene, check_precision};
 use super::whitted_records::{SolidRecords, WhittedRecords};
 use super::{Kernel, TracerError, Work};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Texel, Use};
-use crate::plan::Precision;
+use crate::plan::{Crowd, Precision};
 use crate::scene::{Primitive, Scene};
 
 /// The kernel with the state that it began last.
@@ -33,10 +33,17 @@ struct OnDevice {
     primitives: Arc<Primitives>,
 }
 
-/// The primitives of a scene with where they are.
+/// The primitives of a scene with what they alone decide.
 struct Primitives {
     list: Vec<Primitive>,
     extent: Extent,
+    crowd: Crowd,
+}
+
+impl Primitives {
+    fn of(primitives: &[Primitive]) -> Self {
+        Self { list: primitives.to_vec(), extent: Extent::of(primitives), crowd: Crowd::of(primitives) }
+    }
 }
 
 /// A state of the scene.
@@ -69,10 +76,8 @@ impl LiveWhitted {
         let precision = self.kernel.precision();
         check_precision(&self.device, precision)?;
         let same = self.begun.as_ref().filter(|begun| begun.primitives.list == scene.primitives);
-        let primitives = same.map_or_else(
-            || Arc::new(Primitives { extent: Extent::of(&scene.primitives), list: scene.primitives.clone() }),
-            |begun| begun.primitives.clone(),
-        );
+        let primitives =
+            same.map_or_else(|| Arc::new(Primitives::of(&scene.primitives)), |begun| begun.primitives.clone());
         let frame = primitives.extent.frame(scene.camera.position);
         let last = self.begun.as_ref().map(|begun| &begun.records.solids).filter(|solids| solids.frame == frame);
         let solids = match last {
@@ -81,7 +86,9 @@ impl LiveWhitted {
         };
         let records = WhittedRecords::with(scene, solids, precision, size);
         let max_depth = work.max_depth.unwrap_or(scene.max_depth);
+        let pixels = primitives.crowd.pixels_in_turn(scene.lights.len(), max_depth);
         let scene = WhittedScene::with(&self.device, scene, records, self.kernel, work.cuts, max_depth, size)?;
+        let scene = scene.in_turn(pixels);
         let scene = if work.without_boxes { scene.without_boxes() } else { scene };
         check_picture(self.device.description(), sampling.traced_size(size))?;
         Ok(WhittedState { scene: scene.sampled(sampling, size), primitives })

@@ -23,7 +23,7 @@ pub struct Requirements {
     pub reflections: bool,
     /// Pixels have more than one sample.
     pub samples: bool,
-    /// That an invocation traces, one after another, where they come in packets; see [`pixels_in_turn`](crate::plan::pixels_in_turn).
+    /// That an invocation traces, one after another.
     pub pixels: u32,
 }
 
@@ -83,19 +83,9 @@ impl Requirements {
             u32::from(reflections),
             balls,
             u32::from(samples),
-            in_turn(pixels, device, [width, height]),
+            pixels,
         ])
     }
-}
-
-/// Whether eight invocations along x are a packet that goes together.
-pub(super) fn come_in_packets(device: &Device, workgroup: [u32; 2]) -> bool {
-    device.description().octets && workgroup[0].is_multiple_of(8)
-}
-
-/// Pixels that an invocation traces: these, in packets; at least one.
-pub(super) fn in_turn(pixels: u32, device: &Device, workgroup: [u32; 2]) -> u32 {
-    if come_in_packets(device, workgroup) { pixels.max(1) } else { 1 }
 }
 
 /// Specialization constant 7: the turns of loops that an invocation may take.

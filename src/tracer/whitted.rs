@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::chunks::Part;
 use super::kernel_frame::KernelFrame;
-use super::requirements::{Requirements, come_in_packets, in_turn};
+use super::requirements::Requirements;
 use super::sampling::Sampling;
 use super::whitted_records::{WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError};
@@ -14,7 +14,7 @@ use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, GpuError, PipelineDescription, Recorder,
     Resource, Texel, shaders,
 };
-use crate::plan::{Cuts, Precision, pixels_in_turn};
+use crate::plan::{Crowd, Cuts, MOST_PIXELS, Precision};
 use crate::scene::Scene;
 
 impl Precision {
@@ -161,10 +161,11 @@ impl WhittedScene {
     ) -> Result<Self, TracerError> {
         check_precision(device, kernel.precision())?;
         let records = WhittedRecords::of(scene, KernelFrame::of(scene), kernel.precision(), size);
-        Self::with(device, scene, records, kernel, cuts, max_depth, size)
+        let pixels = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), max_depth);
+        Ok(Self::with(device, scene, records, kernel, cuts, max_depth, size)?.in_turn(pixels))
     }
 
-    /// With the scene's records for a picture of that size.
+    /// With the scene's records for a picture of that size, pixel by pixel.
     ///
     /// # Errors
     /// The device lets no kernel see so many primitives.
@@ -194,8 +195,7 @@ impl WhittedScene {
             sample_weight: 1.0,
             tile_size: width | height << 16,
         };
-        let pixels = pixels_in_turn(scene, max_depth);
-        let requirements = Requirements { pixels, ..Requirements::of(&records, &cuts, max_depth) };
+        let requirements = Requirements::of(&records, &cuts, max_depth);
         let background = scene.background.as_vec3().to_array();
         Ok(Self { kernel, records, requirements, frame, samples: 1, background })
     }
@@ -210,9 +210,9 @@ impl WhittedScene {
         self
     }
 
-    /// For [`Settings::pixels`](super::Settings).
+    /// With so many pixels an invocation, where those come in packets.
     pub fn in_turn(mut self, pixels: u32) -> Self {
-        self.requirements.pixels = pixels;
+        self.requirements.pixels = pixels.clamp(1, MOST_PIXELS);
         self
     }
 
@@ -257,7 +257,9 @@ impl WhittedPipeline {
         let precision = kernel.precision();
         let mut bindings = vec![BindingKind::Pixels];
         bindings.extend(scene_bindings(precision));
-        let octets = come_in_packets(device, workgroup);
+        // Packets are of invocations along x.
+        let octets = device.description().octets && workgroup[0].is_multiple_of(8);
+        let pixels = if octets { requirements.pixels } else { 1 };
         let shader = match (kernel, octets) {
             (Kernel::Whitted(Precision::F64), false) => &shaders::WHITTED_F64,
             (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_OCTETS,
@@ -270,10 +272,9 @@ impl WhittedPipeline {
             shader,
             bindings: &bindings,
             push_constant_bytes: size_of::<WhittedFrame>() as u32,
-            constants: &requirements.constants(device, precision, workgroup)?,
+            constants: &Requirements { pixels, ..requirements }.constants(device, precision, workgroup)?,
         };
         let pipeline = ComputePipeline::new(device, &description)?;
-        let pixels = in_turn(requirements.pixels, device, workgroup);
         Ok(Self { pipeline, kernel, requirements, workgroup, pixels })
     }
 
@@ -282,18 +283,17 @@ impl WhittedPipeline {
         Self::made(device, self.kernel, Requirements { pixels: 1, ..self.requirements }, self.workgroup)
     }
 
-    /// Whether it draws that scene too.
+    /// Whether it draws that scene too, as one made for it would.
     pub fn fits(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
-        let &Self { kernel, requirements, workgroup: own_workgroup, .. } = self;
-        (kernel, requirements, own_workgroup) == (scene.kernel, scene.requirements, workgroup)
+        self.serves(scene, workgroup) && self.requirements.pixels == scene.requirements.pixels
     }
 
     /// Whether it draws that scene too, if perhaps by fewer pixels in turn.
     pub fn serves(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
-        let &Self { kernel, requirements, workgroup: own_workgroup, .. } = self;
-        let own = Requirements { pixels: requirements.pixels, ..scene.requirements };
-        requirements.pixels <= scene.requirements.pixels
-            && (kernel, requirements, own_workgroup) == (scene.kernel, own, workgroup)
+        let pixels = self.requirements.pixels;
+        let own = (self.kernel, self.requirements, self.workgroup);
+        pixels <= scene.requirements.pixels
+            && own == (scene.kernel, Requirements { pixels, ..scene.requirements }, workgroup)
     }
 
     /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.

@@ -4,14 +4,11 @@ use std::sync::Arc;
 
 use super::super::chunks::Part;
 use super::super::enlarge::Enlarger;
-use super::super::live_kernel::{BLOCK, LiveKernel};
-use super::super::pixels::pixel_buffer;
+use super::super::live_kernel::BLOCK;
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, StorageImage, Use};
 
 pub struct Image {
     pub resource: Resource,
-    /// Where a kernel draws that does not draw into an image; the image is copied from there.
-    pub pixels: Option<Resource>,
     /// Once the kernel can be bound.
     pub set: Option<Arc<BindingSet>>,
     pub is_cleared: bool,
@@ -19,29 +16,8 @@ pub struct Image {
 }
 
 impl Image {
-    /// Has the kernel draw into it.
-    pub fn bind(&mut self, device: &Arc<Device>, kernel: &LiveKernel) -> Result<(), GpuError> {
-        let target = if kernel.draws_pixels() {
-            let pixels = match self.pixels.take() {
-                Some(pixels) => pixels,
-                None => pixel_buffer(device, "pixels", self.size)?,
-            };
-            self.pixels.insert(pixels)
-        } else {
-            &self.resource
-        };
-        self.set = kernel.bind(target)?;
-        Ok(())
-    }
-
-    /// For the kernel [bound](Image::bind) last.
-    pub fn make_ready(&self, recorder: &mut Recorder) {
-        recorder.make_ready(self.pixels.as_ref().unwrap_or(&self.resource), Use::ShaderWrite);
-    }
-
-    /// After these blocks were drawn.
-    pub fn bring_up_to_date(&self, recorder: &mut Recorder, blocks: &[Part]) {
-        let Some(pixels) = self.pixels.as_ref() else { return };
+    /// Copies blocks from the buffer that they were drawn into.
+    pub fn take_blocks(&self, recorder: &mut Recorder, pixels: &Resource, blocks: &[Part]) {
         recorder.make_ready(pixels, Use::CopySource);
         recorder.make_ready(&self.resource, Use::CopyTarget);
         recorder.copy_parts_to_image(pixels, &self.resource, self.size[0], blocks.iter().map(|part| self.area(part)));
@@ -92,7 +68,7 @@ impl Enlarging {
 pub fn images(device: &Arc<Device>, [width, height]: [u32; 2]) -> Result<[Image; 2], GpuError> {
     let image = |name| {
         let resource = Resource::from(&Arc::new(StorageImage::new(device, name, width, height)?));
-        Ok(Image { resource, pixels: None, set: None, is_cleared: false, size: [width, height] })
+        Ok(Image { resource, set: None, is_cleared: false, size: [width, height] })
     };
     Ok([image("picture 0")?, image("picture 1")?])
 }

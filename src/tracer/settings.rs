@@ -1,0 +1,113 @@
+//! How to draw, apart from the scene.
+
+use super::course::WORKGROUP;
+use super::sampling::Sampling;
+use crate::plan::{Cuts, Plan, Precision};
+
+/// Which kernel draws.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kernel {
+    /// The course work's.
+    Course,
+    /// The accurate model by textbook quadratics in plain `f32`: what accuracy costs is measured against it.
+    Plain,
+    /// The accurate one.
+    Whitted(Precision),
+}
+
+impl Kernel {
+    /// What it calculates in.
+    pub fn precision(self) -> Precision {
+        match self {
+            Self::Course | Self::Plain => Precision::F32,
+            Self::Whitted(precision) => precision,
+        }
+    }
+}
+
+/// How to render, apart from the scene.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Settings {
+    /// Pixels.
+    pub width: u32,
+    pub height: u32,
+    /// In place of the scene's.
+    pub max_depth: Option<u32>,
+    /// Largest side of what one submission traces, pixels; heavy scenes take smaller tiles, see [`tile_side`].
+    pub max_tile_side: u32,
+    /// Pixels of a workgroup along x and y.
+    pub workgroup: [u32; 2],
+    pub kernel: Kernel,
+    /// What is left out; the course kernel leaves out nothing.
+    pub cuts: Cuts,
+    /// The accurate kernel goes down no boxes: each ray looks at every solid. Slow; what the boxes may not change is
+    /// tested against it.
+    pub without_boxes: bool,
+    /// That an invocation of the accurate kernel traces in turn, where invocations come in packets: 1 to 8, in place
+    /// of what [suits the scene](crate::plan::Crowd::pixels_in_turn). What that may not change is tested with it.
+    pub pixels: Option<u32>,
+    /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See [`sampling`].
+    pub samples: u32,
+    /// Size of the picture that is traced against the one asked for, to which it is brought by bilinear interpolation;
+    /// 1/4 to 1. The course kernel takes 1.
+    pub scale: f64,
+}
+
+impl Settings {
+    /// By the course kernel, exactly.
+    pub fn new(width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            max_depth: None,
+            max_tile_side: 1024,
+            workgroup: WORKGROUP,
+            kernel: Kernel::Course,
+            cuts: Cuts::NONE,
+            without_boxes: false,
+            pixels: None,
+            samples: 1,
+            scale: 1.0,
+        }
+    }
+
+    /// By the accurate kernel, as a plan has it.
+    pub fn planned(plan: &Plan, width: u32, height: u32) -> Self {
+        Self {
+            width,
+            height,
+            max_depth: Some(plan.generations.choice),
+            max_tile_side: plan.tile_side.choice,
+            workgroup: plan.workgroup.choice,
+            kernel: Kernel::Whitted(plan.precision.choice),
+            cuts: plan.cuts,
+            without_boxes: false,
+            pixels: None,
+            samples: 1,
+            scale: 1.0,
+        }
+    }
+
+    pub(super) fn sampling(&self) -> Sampling {
+        Sampling { samples: self.samples, scale: self.scale }
+    }
+}
+
+/// What a [`Canvas`] traces of any scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Work {
+    /// See [`Settings`], as of the others.
+    pub cuts: Cuts,
+    pub max_depth: Option<u32>,
+    pub without_boxes: bool,
+}
+
+impl Work {
+    /// All of it.
+    pub const WHOLE: Self = Self { cuts: Cuts::NONE, max_depth: None, without_boxes: false };
+
+    pub fn of(settings: &Settings) -> Self {
+        let &Settings { cuts, max_depth, without_boxes, .. } = settings;
+        Self { cuts, max_depth, without_boxes }
+    }
+}
