@@ -11,10 +11,14 @@ layout(local_size_x = 64) in;
 uint key_alone(uint slot, Beam beam) {
     uvec4 first = first_slots(), rows = frame.outlines;
     uvec4 row = rows + uvec4(1u, 2u, 2u, 2u) * (slot - first);
-    if (HAS_CONES && slot >= first.w)
-        return key_of_cone(texelFetch(outlines, int(row.w)), texelFetch(outlines, int(row.w + 1u)), beam, 0, 0u);
-    if (HAS_CYLINDERS && slot >= first.z)
-        return key_of_cylinder(texelFetch(outlines, int(row.z)), texelFetch(outlines, int(row.z + 1u)), beam, 0, 0u);
+    if (HAS_CONES && slot >= first.w) {
+        vec4 a = texelFetch(outlines, int(row.w)), b = texelFetch(outlines, int(row.w + 1u));
+        return key_of_cone(a, b, beam, 0, 0u) | uint(misses_ball(ball_of_cone(a, b), beam));
+    }
+    if (HAS_CYLINDERS && slot >= first.z) {
+        vec4 a = texelFetch(outlines, int(row.z)), b = texelFetch(outlines, int(row.z + 1u));
+        return key_of_cylinder(a, b, beam, 0, 0u) | uint(misses_ball(ball_of_cylinder(a, b), beam));
+    }
     if (HAS_BOXES && slot >= first.y)
         return key_of_box(texelFetch(outlines, int(row.y)), texelFetch(outlines, int(row.y + 1u)), beam, 0, 0u);
     return key_of_sphere(texelFetch(outlines, int(row.x)), vec4(0.0), beam, 0, 0u);

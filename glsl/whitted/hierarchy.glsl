@@ -1,26 +1,25 @@
 // The search through the solids of a kind, included once for each: SEARCH is its name, KEY_OF and SETTLE what looks at an
 // outline of OUTLINE_ROWS rows, KIND the kind and LEVELS the number of levels over the solids. Where IS_DEAR, KEY_OF takes
-// longer than to find out for all rays of a packet which outlines it is needed for, by MIDDLE_OF and SUPPORT_OF.
+// so long that a packet tries BALL_OF, a ball around the solid, before.
 //
 // The solids lie in such an order that each eight that begin with a multiple of eight are near each other, and so are
 // each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what is
 // in it. src/tracer/hierarchy.rs makes the order, and the boxes.
 
-// A group of the kind, and where the ray enters the box around it. A loop's body may have come here for nothing: then it
-// does not count.
-void TRY_EIGHT(uint group, int entry, bool counts, Beam beam, Bundle bundle, inout Found found) {
-    uint first_group = first_slots()[KIND] / 8u;
-    uint first = frame.outlines[KIND] + OUTLINE_ROWS * 8u * group;
-    vec4 own_a = OWN_ROW(outlines, first, OUTLINE_ROWS);
-    vec4 own_b = OUTLINE_ROWS == 1u ? vec4(0.0) : OWN_ROW(outlines, first + 1u, OUTLINE_ROWS);
-#define A_OF_EIGHT(k) ROW_OF_EIGHT(own_a, outlines, first, OUTLINE_ROWS, k)
-#define B_OF_EIGHT(k) (OUTLINE_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own_b, outlines, first + 1u, OUTLINE_ROWS, k))
+#if IS_DEAR && OCTETS
+#define SOLIDS_AHEAD(own, beam, found) balls_ahead(BALL_OF(own.a, own.b), beam, found.limit > HIDDEN)
+#else
+#define SOLIDS_AHEAD(own, beam, found) 0xFFu
+#endif
+
+// A group of the kind, and where the ray enters the box around it; `left`: which of its solids some ray may meet. A loop's
+// body may have come here for nothing, with none of them.
+void TRY_EIGHT(uint group, OwnOutline own, uint left, int entry, Beam beam, inout Found found) {
+#define A_OF_EIGHT(k) ROW_OF_EIGHT(own.a, outlines, own.first, OUTLINE_ROWS, k)
+#define B_OF_EIGHT(k) (OUTLINE_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own.b, outlines, own.first + 1u, OUTLINE_ROWS, k))
 #define TRY_ONE(k) take(KEY_OF(A_OF_EIGHT(k), B_OF_EIGHT(k), beam, entry, k), k, eight);
-#if OCTETS && IS_DEAR
-    vec3 middle = MIDDLE_OF(own_a, own_b), normal = edge_normal(bundle, middle);
-    float normal_support = SUPPORT_OF(own_a, own_b, normal), ahead_support = SUPPORT_OF(own_a, own_b, bundle.direction);
-    uint left = solids_ahead(bundle, middle, normal, normal_support, ahead_support, found.limit);
-    Group eight = group_of(first_group + group, counts && left != 0u, beam);
+    Group eight = group_of(first_slots()[KIND] / 8u + group, left != 0u, beam);
+#if IS_DEAR && OCTETS
     for (;;) {
         turns++;
         uint k = uint(findLSB(left)) & 7u;
@@ -29,7 +28,6 @@ void TRY_EIGHT(uint group, int entry, bool counts, Beam beam, Bundle bundle, ino
         if (left == 0u) break;
     }
 #else
-    Group eight = group_of(first_group + group, counts, beam);
     EIGHT_TIMES(TRY_ONE)
 #endif
     uint place = (eight.key + eight.first_key) & 7u;
@@ -41,22 +39,55 @@ void TRY_EIGHT(uint group, int entry, bool counts, Beam beam, Bundle bundle, ino
 #undef TRY_ONE
 }
 
+// Up to sixteen groups from `first` on, a bit each, and where the ray enters the boxes around them.
+void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries high, Beam beam, inout Found found) {
+    for (;;) {
+        turns++;
+        uint place, solids;
+        OwnOutline own;
+        for (;;) {
+            bool is_there = left != 0u;
+            place = uint(are_backwards ? findMSB(left) : findLSB(left));
+            place = is_there ? place : 0u;
+            left &= ~(1u << place);
+            own = own_outline(frame.outlines[KIND], first + place, OUTLINE_ROWS);
+            solids = is_there ? SOLIDS_AHEAD(own, beam, found) : 0u;
+#if IS_DEAR && OCTETS
+            turns++;
+            // Where no ray meets any of them, on to the next group at once.
+            if (solids != 0u || left == 0u) break;
+#else
+            break;
+#endif
+        }
+        int entry = LEVELS == 1u && place >= 8u ? entry_of(high, place) : entry_of(low, place);
+        TRY_EIGHT(first + place, own, solids, LEVELS == 0u ? 0 : entry, beam, found);
+        if (LEVELS > 0u) {
+            uint ahead = boxes_ahead(low, end_of(found));
+            if (LEVELS == 1u) ahead |= boxes_ahead(high, end_of(found)) << 8u;
+            left &= bits_of_packet(ahead);
+        }
+        if (left == 0u) break;
+    }
+}
+
 // A level that is alone is entered whole. Down several, a ray or a packet of eight goes group by group: `left` keeps, from
 // bit 8 * (h - 2) on, which boxes of level h, in their order, are still to be gone into. Those of level 1 are gone into at
 // once. What a level holds backwards has its bit in `backwards`.
-void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
+void SEARCH(Beam beam, vec3 heading, bool is_searching, inout Found found) {
     uint count = frame.counts[KIND];
     if (!is_searching) found.limit = HIDDEN;
     if (LEVELS == 0u) {
-        uint group = 0u;
+        Entries none;
+        uint first = 0u;
         for (;;) {
             turns++;
-            TRY_EIGHT(group, 0, true, beam, bundle, found);
-            group++;
-            if (8u * group >= count) break;
+            TRY_GROUPS(first, (1u << min(eighths(count) - first, 16u)) - 1u, false, none, none, beam, found);
+            first += 16u;
+            if (first >= eighths(count)) break;
         }
     } else if (LEVELS == 1u) {
-        uint boxes = eighths(count), first = first_box_row(KIND), second = first + second_group(count);
+        uint first = first_box_row(KIND), second = first + second_group(count);
         OwnBox own_low, own_high;
         if (IS_ONLY_KIND) {
             own_low = held[0];
@@ -66,20 +97,10 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
             own_high = own_box(second);
         }
         Entries low = enter_boxes(own_low, first, beam), high = enter_boxes(own_high, second, beam);
-        bool are_backwards = bundle.heading[order_of_boxes(own_low, first)] < 0.0;
-        uint left = (1u << boxes) - 1u;
+        bool are_backwards = heading[order_of_boxes(own_low, first)] < 0.0;
+        uint left = (1u << eighths(count)) - 1u;
         left &= bits_of_packet(boxes_ahead(low, end_of(found)) | boxes_ahead(high, end_of(found)) << 8u);
-        for (;;) {
-            turns++;
-            bool is_leaf = left != 0u;
-            uint place = uint(are_backwards ? findMSB(left) : findLSB(left));
-            place = is_leaf ? place : 0u;
-            left &= ~(1u << place);
-            int entry = place < 8u ? entry_of(low, place) : entry_of(high, place);
-            TRY_EIGHT(place, entry, is_leaf, beam, bundle, found);
-            left &= bits_of_packet(boxes_ahead(low, end_of(found)) | boxes_ahead(high, end_of(found)) << 8u);
-            if (left == 0u) break;
-        }
+        TRY_GROUPS(0u, left, are_backwards, low, high, beam, found);
     } else {
         // Where the boxes of each level begin.
         uint rows[7];
@@ -117,7 +138,7 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
                 OwnBox own = own_box(first);
                 entries = enter_boxes(own, first, beam);
                 leaves = bits_of_packet(boxes_ahead(entries, end_of(found)));
-                are_leaves_backwards = bundle.heading[order_of_boxes(own, first)] < 0.0;
+                are_leaves_backwards = heading[order_of_boxes(own, first)] < 0.0;
                 uint met = are_leaves_backwards ? bitfieldReverse(leaves) >> 24 : leaves;
                 uint backwards_bit = 1u << (level - 1u);
                 backwards = are_leaves_backwards ? backwards | backwards_bit : backwards & ~backwards_bit;
@@ -129,18 +150,11 @@ void SEARCH(Beam beam, Bundle bundle, bool is_searching, inout Found found) {
                 if (leaves != 0u || (left.x | left.y) == 0u) break;
             }
 
-            for (;;) {
-                turns++;
-                bool is_leaf = leaves != 0u;
-                uint place = uint(are_leaves_backwards ? findMSB(leaves) : findLSB(leaves));
-                place = is_leaf ? place : 0u;
-                leaves &= ~(1u << place);
-                TRY_EIGHT(8u * path + place, entry_of(entries, place), is_leaf, beam, bundle, found);
-                leaves &= bits_of_packet(boxes_ahead(entries, end_of(found)));
-                if (leaves == 0u) break;
-            }
+            TRY_GROUPS(8u * path, leaves, are_leaves_backwards, entries, entries, beam, found);
             bool ends = (left.x | left.y) == 0u || turns >= LOOP_TURNS;
             if (ends || !any_of_packet(found.limit > HIDDEN)) break;
         }
     }
 }
+
+#undef SOLIDS_AHEAD

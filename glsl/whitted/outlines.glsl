@@ -80,6 +80,24 @@ void settle_box(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
     settle(is_there && is_deep, near + beam.plane_error, sine, 1.0, beam, found);
 }
 
+// A ball around a solid: its centre, and the square of its radius, which is negative where there is no solid. The radius
+// is larger by what rounding may put a line off that: DISTANCE_ERROR of the distance, at most 7 * frame.reach, are 7 place
+// errors, outlines are wrong by up to 4, and the ray's place and direction by one.
+vec4 ball_around(vec3 center, float radius_squared, bool is_there) {
+    float radius = sqrt(radius_squared) * (1.0 + 8.0 * FLOAT_ROUNDOFF) + 16.0 * place_error();
+    return vec4(center, is_there ? radius * radius : -FAR);
+}
+
+// All bits where the ray misses a ball.
+int misses_ball(vec4 ball, Beam beam) {
+    vec3 to_center = ball.xyz - beam.origin;
+    float middle = dot(to_center, beam.direction);
+    vec3 across = to_center - middle * beam.direction;
+    float half_squared = ball.w - dot(across, across);
+    // Behind the ray's origin it is where its middle is by more than the radius.
+    return if_negative(half_squared) | if_negative(ball.w + middle * abs(middle));
+}
+
 // a: middle between the ends, radius; b: unit axis, half length.
 uint key_of_cylinder(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     vec3 from_middle = beam.origin - a.xyz;
@@ -107,8 +125,7 @@ uint key_of_cylinder(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     return key_of(near + (closest_t - 4.0 * place_error()), never, entry, k);
 }
 
-vec3 middle_of_cylinder(vec4 a, vec4 b) { return a.xyz; }
-float support_of_cylinder(vec4 a, vec4 b, vec3 normal) { return a.w + b.w * abs(dot(b.xyz, normal)); }
+vec4 ball_of_cylinder(vec4 a, vec4 b) { return ball_around(a.xyz, a.w * a.w + b.w * b.w, b.w >= 0.0); }
 
 void settle_cylinder(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {}
 
@@ -158,11 +175,14 @@ uint key_of_cone(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     return key_of(near + (closest_t - 4.0 * place_error()), never, entry, k);
 }
 
-vec3 middle_of_cone(vec4 a, vec4 b) { return a.xyz + (0.5 * a.w) * b.xyz; }
-// Of the cylinder around it.
-float support_of_cone(vec4 a, vec4 b, vec3 normal) {
-    float base_radius = a.w * (2.0 * b.w) / ((1.0 - b.w) * (1.0 + b.w));
-    return base_radius + (0.5 * a.w) * abs(dot(b.xyz, normal));
+vec4 ball_of_cone(vec4 a, vec4 b) {
+    // Rounded to float, the tangent may be too small by half of that, which in a blunt cone is much of what 1 exceeds it by.
+    float tangent = b.w + 2.0 * FLOAT_ROUNDOFF;
+    float base_radius = abs(a.w * (2.0 * tangent) / ((1.0 - tangent) * (1.0 + tangent)));
+    // Of a disk whose points have no coordinate above 2 * frame.reach.
+    base_radius = min(base_radius, 3.0 * frame.reach);
+    float half_height = 0.5 * a.w;
+    return ball_around(a.xyz + half_height * b.xyz, half_height * half_height + base_radius * base_radius, b.w >= 0.0);
 }
 
 void settle_cone(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {}

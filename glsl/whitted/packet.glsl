@@ -17,15 +17,11 @@ const bool IN_PACKETS = true;
     }
 #define EITHER(a, b) ((a) | (b))
 OF_PACKET(uint, bits_of_packet, EITHER)
-OF_PACKET(int, greatest_of_packet, max)
 #undef OF_PACKET
 #undef EITHER
 
 bool any_of_packet(bool mine) { return bits_of_packet(uint(mine)) != 0u; }
 vec3 of_packet(vec3 mine, uint k) { return subgroupShuffle(mine, k); }
-
-// Of numbers from 0 on.
-float greatest_of_packet(float mine) { return intBitsToFloat(greatest_of_packet(floatBitsToInt(mine))); }
 
 // Row `first + stride * k`, k < 8, of which this invocation has fetched the one with its own number.
 #define OWN_ROW(rows, first, stride) texelFetch(rows, int((first) + (stride) * gl_SubgroupInvocationID))
@@ -34,6 +30,7 @@ float greatest_of_packet(float mine) { return intBitsToFloat(greatest_of_packet(
 const bool IN_PACKETS = false;
 bool any_of_packet(bool mine) { return mine; }
 uint bits_of_packet(uint mine) { return mine; }
+vec3 of_packet(vec3 mine, uint k) { return mine; }
 #define OWN_ROW(rows, first, stride) vec4(0.0)
 #define ROW_OF_EIGHT(own, rows, first, stride, k) texelFetch(rows, int((first) + (stride) * (k)))
 #endif
