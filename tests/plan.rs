@@ -5,10 +5,10 @@ mod scenes;
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use scenes::{cube, light, material, mirror, mixed_scene, primitive, sphere};
-use zerkalo::plan::{Limits, Plan, PlanError, Precision, Reason, Structure, Wishes};
+use scenes::{cube, light, material, mirror, mixed_scene, primitive, scene_of_a_light, sphere};
+use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, Wishes};
 use zerkalo::reference::{self, LIGHT_BALL};
-use zerkalo::scene::{Camera, Light, Material, Projection, Scene, Solid, SolidKind, gallery};
+use zerkalo::scene::{Camera, Light, Material, Scene, Solid, SolidKind, gallery};
 use zerkalo::tracer::{KernelFrame, WhittedRecords};
 
 const DEVICE: Limits = Limits { float64: true, max_array_bytes: 1 << 27, max_image_side: 16384, packets: true };
@@ -62,28 +62,34 @@ fn a_scene_of_nothing_traces_one_generation_without_light() {
 /// As the reference's pictures show, from any camera and by either window.
 #[test]
 fn balls_out_of_sight_are_those_that_no_picture_shows() {
-    let mut seen = 0;
-    for index in 0..400_u32 {
-        // Numbers in [-1, 1), spread evenly (Roberts' R sequence in so many dimensions is good enough).
-        let number = |dimension: i32| (f64::from(index) * 1.1673f64.powi(-dimension)).fract() * 2.0 - 1.0;
-        let camera = Camera {
-            position: DVec3::new(number(1), number(2), number(3)) * 0.3,
-            direction: DVec3::new(number(4), number(5), number(6) + 0.1),
-            vertical_fov_degrees: 70.0 + 60.0 * number(7),
-            projection: if index % 2 == 0 { Projection::Centered } else { Projection::Course },
-            ..Camera::default()
-        };
-        let lights = vec![Light { position: DVec3::new(number(8), number(9), number(10)) * 0.2, ..Light::default() }];
-        let scene = Scene { camera, lights, ..Scene::default() };
+    let (mut seen, mut narrow) = (0, 0);
+    for index in 0..400 {
+        let scene = scene_of_a_light(index);
         let (width, height) = (64, 28);
         let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &DEVICE).unwrap();
         let image = reference::render(&scene, width, height, &|_| ControlFlow::Continue(())).unwrap();
-        let is_shown = image.pixels.iter().any(|pixel| pixel.first_hit == LIGHT_BALL);
-        assert!(plan.balls.choice == 1 || !is_shown, "{scene:?}");
+        let shown = (0..).zip(&image.pixels).filter(|(_, pixel)| pixel.first_hit == LIGHT_BALL);
+        let shown: Vec<[u32; 2]> = shown.map(|(i, _)| [i % width, i / width]).collect();
+        assert!(plan.balls.choice == 1 || shown.is_empty(), "{scene:?}");
         assert_eq!(plan.cuts.balls, plan.balls.choice > 0);
-        seen += usize::from(is_shown);
+        let Some(area) = Area::of_balls(&scene, f64::from(width) / f64::from(height), 0.0) else {
+            assert_eq!(plan.balls.choice, 0);
+            continue;
+        };
+        let area = area.pixels([width, height]);
+        let is_in = |pixel: &[u32; 2]| (0..2).all(|axis| area[axis].contains(&pixel[axis]));
+        assert!(shown.iter().all(is_in), "{area:?}: {scene:?}");
+        // A ball between the edges ends within a pixel of its outermost centres, and the area a pixel beyond that.
+        let end = |axis: usize| shown.iter().map(|pixel| pixel[axis] + 1).max().unwrap_or_default();
+        let start = |axis: usize| shown.iter().map(|pixel| pixel[axis]).min().unwrap_or_default();
+        if (0..2).all(|axis| start(axis) > 0 && end(axis) < [width, height][axis]) {
+            let is_narrow = |axis: usize| start(axis) - area[axis].start <= 2 && area[axis].end - end(axis) <= 2;
+            assert!(is_narrow(0) && is_narrow(1), "{area:?}: {scene:?}");
+            narrow += 1;
+        }
+        seen += usize::from(!shown.is_empty());
     }
-    assert!((50..350).contains(&seen), "{seen} of 400 are a poor choice");
+    assert!((50..350).contains(&seen) && narrow > 20, "{seen} and {narrow} of 400 are a poor choice");
 }
 
 #[test]

@@ -7,9 +7,10 @@ use std::ops::ControlFlow;
 
 use common::{TestDevice, render};
 use glam::DVec3;
-use scenes::{light, material, mirror, mixed_scene, primitive, sphere};
+use scenes::{light, material, mirror, mixed_scene, picture, primitive, scene_of_a_light, sphere};
 use zerkalo::frame::Frame;
 use zerkalo::plan::{Crowd, Cuts};
+use zerkalo::reference::LIGHT_BALL;
 use zerkalo::scene::{Camera, LIGHT_LIMIT, Light, Scene, Solid, gallery};
 use zerkalo::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
 
@@ -38,6 +39,31 @@ fn tiles_workgroups_and_pixels_in_turn_change_no_bit() {
             assert!(other == whole, "{pixels} pixels in turn");
         }
     }
+}
+
+/// Balls are looked for in a part of the picture only: in all that shows them.
+#[test]
+fn the_balls_of_lights_are_drawn_wherever_they_are_seen() {
+    let device = TestDevice::open();
+    let usual = settings(Precision::F64, 130, 70);
+    let mut tracer = Tracer::new(&device, &scene_of_a_light(0), &usual).unwrap();
+    let mut frame = tracer.frame().unwrap();
+    let mut shown = 0;
+    for (index, are_two) in [false, true].into_iter().flat_map(|are_two| (0..150).map(move |index| (index, are_two))) {
+        let mut scene = scene_of_a_light(index);
+        let in_sight = scene.camera.position + scene.camera.direction.normalize() * 3.0;
+        scene.lights.extend(are_two.then(|| Light { position: in_sight, ..Light::default() }));
+        let tiled = Settings { max_tile_side: [33, 1024][index as usize % 2], ..usual.clone() };
+        tracer.take_up(&scene, &tiled).unwrap();
+        tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())).unwrap();
+        let truth = picture(&scene, 130, 70);
+        for (pixel, truth) in frame.pixels().iter().zip(&truth.pixels) {
+            assert_eq!(*pixel, truth.color.as_vec3().to_array(), "{scene:?}");
+        }
+        let is_shown = truth.pixels.iter().any(|pixel| pixel.first_hit == LIGHT_BALL);
+        shown += usize::from(is_shown && !are_two);
+    }
+    assert!((20..130).contains(&shown), "{shown} of 150 are a poor choice");
 }
 
 /// What an invocation cannot end for eight pixels it can end for one.

@@ -40,7 +40,7 @@ pub use memory::{Buffer, BufferKind, PIXEL_BYTES, StorageImage, Texel};
 pub use messages::{Allowance, Message, Messages};
 pub use physical::{DeviceDescription, DeviceKind, choose};
 pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
-pub use recorder::Recorder;
+pub use recorder::{Dispatch, Recorder};
 #[cfg(debug_assertions)]
 pub(crate) use shader_compiler::{AS_IT_STANDS, compile};
 pub use shaders::Shader;

@@ -58,28 +58,67 @@ pub struct PipelineDescription<'a> {
     pub constants: &'a [u32],
 }
 
-/// A compute pipeline with its layouts.
+/// A compute pipeline with its layout.
 pub struct ComputePipeline {
     pub(super) raw: vk::Pipeline,
-    pub(super) layout: vk::PipelineLayout,
+    pub(super) layout: Arc<Layout>,
     pub(super) name: &'static str,
-    pub(super) set_layout: vk::DescriptorSetLayout,
-    pub(super) push_constant_bytes: u32,
-    bindings: Vec<BindingKind>,
     device: Arc<Device>,
 }
 
 impl ComputePipeline {
     pub fn new(device: &Arc<Device>, description: &PipelineDescription) -> Result<Arc<Self>, GpuError> {
+        let layout = Layout::new(device, description)?;
+        Self::with_layout(layout, description)
+    }
+
+    /// Another one, that binding sets of this one serve too.
+    ///
+    /// # Panics
+    /// It binds other resources, or its push constants are of another length.
+    pub fn sibling(&self, description: &PipelineDescription) -> Result<Arc<Self>, GpuError> {
+        let Layout { bindings, push_constant_bytes, .. } = &*self.layout;
+        let same = (&bindings[..], *push_constant_bytes) == (description.bindings, description.push_constant_bytes);
+        assert!(same, "kernel '{}' binds other resources than '{}'", description.shader.name, self.name);
+        Self::with_layout(self.layout.clone(), description)
+    }
+
+    fn with_layout(layout: Arc<Layout>, description: &PipelineDescription) -> Result<Arc<Self>, GpuError> {
+        let (device, name) = (layout.device.clone(), description.shader.name);
+        let raw = compile(&device, description, layout.raw)?;
+        let pipeline = Self { raw, layout, name, device };
+        let device = &pipeline.device;
+        device.set_name(pipeline.raw, name);
+        device.cache.save(&device.raw);
+        Ok(Arc::new(pipeline))
+    }
+}
+
+impl Drop for ComputePipeline {
+    fn drop(&mut self) {
+        // SAFETY: submissions are waited for before a pipeline can be dropped.
+        unsafe { self.device.raw.destroy_pipeline(self.raw, None) };
+    }
+}
+
+/// What kernels bind, and how long their push constants are.
+pub(super) struct Layout {
+    pub raw: vk::PipelineLayout,
+    set: vk::DescriptorSetLayout,
+    bindings: Vec<BindingKind>,
+    pub push_constant_bytes: u32,
+    device: Arc<Device>,
+}
+
+impl Layout {
+    fn new(device: &Arc<Device>, description: &PipelineDescription) -> Result<Arc<Self>, GpuError> {
         let name = description.shader.name;
         // Null handles until made; `Drop` ignores them, so a failure on the way leaks nothing.
-        let mut pipeline = Self {
-            raw: vk::Pipeline::null(),
-            layout: vk::PipelineLayout::null(),
-            name,
-            set_layout: vk::DescriptorSetLayout::null(),
-            push_constant_bytes: description.push_constant_bytes,
+        let mut layout = Self {
+            raw: vk::PipelineLayout::null(),
+            set: vk::DescriptorSetLayout::null(),
             bindings: description.bindings.to_vec(),
+            push_constant_bytes: description.push_constant_bytes,
             device: device.clone(),
         };
 
@@ -95,11 +134,11 @@ impl ComputePipeline {
             .collect();
         let info = vk::DescriptorSetLayoutCreateInfo::default().bindings(&set_bindings);
         // SAFETY: the device is alive; `info` lives through the call.
-        pipeline.set_layout = unsafe { device.raw.create_descriptor_set_layout(&info, None) }
+        layout.set = unsafe { device.raw.create_descriptor_set_layout(&info, None) }
             .map_err(GpuError::call(|| format!("create the set layout of kernel '{name}'")))?;
-        device.set_name(pipeline.set_layout, name);
+        device.set_name(layout.set, name);
 
-        let set_layouts = [pipeline.set_layout];
+        let set_layouts = [layout.set];
         let push_constants = [vk::PushConstantRange::default()
             .stage_flags(vk::ShaderStageFlags::COMPUTE)
             .size(description.push_constant_bytes)];
@@ -108,24 +147,20 @@ impl ComputePipeline {
             info = info.push_constant_ranges(&push_constants);
         }
         // SAFETY: as above.
-        pipeline.layout = unsafe { device.raw.create_pipeline_layout(&info, None) }
+        layout.raw = unsafe { device.raw.create_pipeline_layout(&info, None) }
             .map_err(GpuError::call(|| format!("create the layout of kernel '{name}'")))?;
-        device.set_name(pipeline.layout, name);
-
-        pipeline.raw = compile(device, description, pipeline.layout)?;
-        device.set_name(pipeline.raw, name);
-        device.cache.save(&device.raw);
-        Ok(Arc::new(pipeline))
+        device.set_name(layout.raw, name);
+        Ok(Arc::new(layout))
     }
 }
 
-impl Drop for ComputePipeline {
+impl Drop for Layout {
     fn drop(&mut self) {
-        // SAFETY: submissions are waited for before a pipeline can be dropped; null handles are ignored.
+        // SAFETY: pipelines and sets of it hold it, and recorders hold those until their submissions are over; null
+        // handles are ignored.
         unsafe {
-            self.device.raw.destroy_pipeline(self.raw, None);
-            self.device.raw.destroy_pipeline_layout(self.layout, None);
-            self.device.raw.destroy_descriptor_set_layout(self.set_layout, None);
+            self.device.raw.destroy_pipeline_layout(self.raw, None);
+            self.device.raw.destroy_descriptor_set_layout(self.set, None);
         }
     }
 }
@@ -249,7 +284,7 @@ impl From<&Arc<StorageImage>> for Resource {
 pub struct BindingSet {
     pub(super) set: vk::DescriptorSet,
     /// Of the pipeline that it was made for.
-    pub(super) set_layout: vk::DescriptorSetLayout,
+    pub(super) layout: Arc<Layout>,
     pub(super) uses: Vec<(Resource, Use)>,
     pool: vk::DescriptorPool,
     device: Arc<Device>,
@@ -261,9 +296,10 @@ impl BindingSet {
     /// # Panics
     /// The resources are not those that the pipeline binds, in number, kind or device.
     pub fn new(pipeline: &ComputePipeline, resources: &[Resource]) -> Result<Arc<Self>, GpuError> {
-        assert_eq!(resources.len(), pipeline.bindings.len(), "kernel '{}' binds other resources", pipeline.name);
+        assert_eq!(resources.len(), pipeline.layout.bindings.len(), "kernel '{}' binds other resources", pipeline.name);
         let device = &pipeline.device;
         let sizes: Vec<_> = pipeline
+            .layout
             .bindings
             .iter()
             .map(|kind| vk::DescriptorPoolSize { ty: kind.descriptor_type(), descriptor_count: 1 })
@@ -275,14 +311,14 @@ impl BindingSet {
         // Dropped, and so freed, by a failure below; a set dies with its pool.
         let mut binding_set = Self {
             set: vk::DescriptorSet::null(),
-            set_layout: pipeline.set_layout,
+            layout: pipeline.layout.clone(),
             uses: Vec::new(),
             pool,
             device: device.clone(),
         };
         device.set_name(pool, pipeline.name);
 
-        let set_layouts = [pipeline.set_layout];
+        let set_layouts = [pipeline.layout.set];
         let info = vk::DescriptorSetAllocateInfo::default().descriptor_pool(pool).set_layouts(&set_layouts);
         // SAFETY: the pool has room for exactly this set.
         let sets = unsafe { device.raw.allocate_descriptor_sets(&info) }
@@ -290,7 +326,7 @@ impl BindingSet {
         binding_set.set = sets[0];
         device.set_name(binding_set.set, pipeline.name);
 
-        for ((binding, kind), resource) in (0..).zip(&pipeline.bindings).zip(resources) {
+        for ((binding, kind), resource) in (0..).zip(&pipeline.layout.bindings).zip(resources) {
             let write = vk::WriteDescriptorSet::default()
                 .dst_set(binding_set.set)
                 .dst_binding(binding)

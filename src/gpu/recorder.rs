@@ -13,6 +13,22 @@ use super::messages::Message;
 use super::pipeline::{BindingSet, ComputePipeline, Resource};
 use super::timer::Timer;
 
+/// Workgroups of a grid that a pipeline runs.
+#[derive(Clone, Copy)]
+pub struct Dispatch<'p> {
+    pub pipeline: &'p Arc<ComputePipeline>,
+    /// The first, as the kernel counts them.
+    pub first: [u32; 3],
+    pub groups: [u32; 3],
+}
+
+impl<'p> Dispatch<'p> {
+    /// Of a grid of two dimensions.
+    pub fn flat(pipeline: &'p Arc<ComputePipeline>, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> Self {
+        Self { pipeline, first: [x, y, 0], groups: [width, height, 1] }
+    }
+}
+
 /// A command buffer being recorded.
 ///
 /// A barrier is a call of its own, [`Recorder::make_ready`], so that the recorded text shows it; a missing one becomes
@@ -118,44 +134,44 @@ impl<'h> Recorder<'h> {
         push_constants: &[u8],
         groups: [u32; 3],
     ) {
-        self.dispatch_parts(pipeline, set, push_constants, [([0, 0, 0], groups)]);
+        self.dispatch_parts(set, push_constants, &[Dispatch { pipeline, first: [0; 3], groups }]);
     }
 
-    /// Runs parts of one grid of workgroups: of each the first, as the kernel counts them, and their number. No barrier
-    /// stands between them, so they must not touch the same data.
+    /// Runs parts of one grid of workgroups, each by its own of some sibling pipelines. No barrier stands between them, so
+    /// they must not touch the same data.
     ///
     /// # Panics
     /// The set was made for another pipeline, or the push constants are not as long as the pipeline's.
-    pub fn dispatch_parts(
-        &mut self,
-        pipeline: &Arc<ComputePipeline>,
-        set: &Arc<BindingSet>,
-        push_constants: &[u8],
-        parts: impl IntoIterator<Item = ([u32; 3], [u32; 3])>,
-    ) {
-        assert_eq!(set.set_layout, pipeline.set_layout, "the set was made for another kernel than '{}'", pipeline.name);
-        assert_eq!(push_constants.len(), pipeline.push_constant_bytes as usize, "kernel '{}'", pipeline.name);
+    pub fn dispatch_parts(&mut self, set: &Arc<BindingSet>, push_constants: &[u8], parts: &[Dispatch]) {
+        let Some(Dispatch { pipeline: first, .. }) = parts.first() else { return };
+        assert_eq!(push_constants.len(), set.layout.push_constant_bytes as usize, "kernel '{}'", first.name);
         for (resource, as_) in &set.uses {
-            self.note_use(resource, pipeline.name, *as_);
+            self.note_use(resource, first.name, *as_);
         }
-        self.kept.extend([pipeline.clone() as Arc<dyn Any>, set.clone()]);
-        let raw = &self.device.raw;
-        // SAFETY: the command buffer is being recorded; the set was made for this pipeline's layout.
+        self.kept.push(set.clone());
+        let (raw, layout) = (&self.device.raw, set.layout.raw);
+        let (point, stages) = (vk::PipelineBindPoint::COMPUTE, vk::ShaderStageFlags::COMPUTE);
+        // SAFETY: the command buffer is being recorded; the set and the constants are of that layout.
         unsafe {
-            raw.cmd_bind_pipeline(self.buffer, vk::PipelineBindPoint::COMPUTE, pipeline.raw);
-            raw.cmd_bind_descriptor_sets(
-                self.buffer,
-                vk::PipelineBindPoint::COMPUTE,
-                pipeline.layout,
-                0,
-                &[set.set],
-                &[],
-            );
+            raw.cmd_bind_descriptor_sets(self.buffer, point, layout, 0, &[set.set], &[]);
             if !push_constants.is_empty() {
-                let stages = vk::ShaderStageFlags::COMPUTE;
-                raw.cmd_push_constants(self.buffer, pipeline.layout, stages, 0, push_constants);
+                raw.cmd_push_constants(self.buffer, layout, stages, 0, push_constants);
             }
-            for ([x, y, z], [width, height, depth]) in parts {
+        }
+        let mut bound = vk::Pipeline::null();
+        for &Dispatch { pipeline, first: [x, y, z], groups: [width, height, depth] } in parts {
+            assert!(
+                Arc::ptr_eq(&set.layout, &pipeline.layout),
+                "the set was made for another kernel than '{}'",
+                pipeline.name
+            );
+            // SAFETY: the command buffer is being recorded; what is bound is of the pipeline's layout.
+            unsafe {
+                if bound != pipeline.raw {
+                    raw.cmd_bind_pipeline(self.buffer, point, pipeline.raw);
+                    self.kept.push(pipeline.clone());
+                    bound = pipeline.raw;
+                }
                 raw.cmd_dispatch_base(self.buffer, x, y, z, width, height, depth);
             }
         }

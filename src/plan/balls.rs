@@ -1,18 +1,24 @@
-//! Which lights' balls the camera may see.
+//! Which lights' balls the camera may see, and where in its picture.
 
-use glam::DVec3;
+use std::f64::consts::FRAC_PI_2;
+use std::ops::Range;
+
+use glam::{DVec2, DVec3};
 
 use super::{Decision, Reason, Wishes};
-use crate::scene::{Camera, Light, Projection, Scene};
+use crate::scene::{BoundingSphere, Camera, Light, Primitive, Projection, Scene};
 
-/// What kernels may be off in a direction or a place, relative to its distance: of an `f32` of `u` = 6e-8, a hundredfold.
+/// What kernels may be off in a direction or a place, relative to coordinates in their frame, whose origin is among the
+/// solids: of an `f32` of `u` = 6e-8, a hundredfold.
 const SURELY: f64 = 1e-5;
 
 /// How many may be seen.
 pub(super) fn decide(scene: &Scene, wishes: &Wishes) -> Decision<usize> {
     let lights = scene.lights.len();
-    let window = Window::of(&scene.camera, f64::from(wishes.width) / f64::from(wishes.height));
-    let choice = scene.lights.iter().filter(|light| window.may_show(light)).count();
+    let aspect = f64::from(wishes.width) / f64::from(wishes.height);
+    let farthest = farthest_solid(scene);
+    let seen = |light: &&Light| Area::of_ball(light, &scene.camera, aspect, farthest).is_some();
+    let choice = scene.lights.iter().filter(seen).count();
     let reason = match (lights, choice) {
         (0, _) => Reason::NoLights,
         (_, 0) => Reason::BallsOutOfSight { lights },
@@ -21,15 +27,31 @@ pub(super) fn decide(scene: &Scene, wishes: &Wishes) -> Decision<usize> {
     Decision { choice, reason }
 }
 
-/// A picture's pyramid: the half-spaces it is in, of planes through the camera.
-struct Window {
-    camera: DVec3,
-    /// Unit, outwards.
-    normals: [DVec3; 5],
+/// From the camera.
+fn farthest_solid(scene: &Scene) -> f64 {
+    let farthest = |primitive: &Primitive| {
+        let sphere = BoundingSphere::of(&primitive.solid);
+        sphere.center.distance(scene.camera.position) + sphere.radius
+    };
+    scene.primitives.iter().map(farthest).fold(0.0, f64::max)
 }
 
-impl Window {
-    fn of(camera: &Camera, aspect: f64) -> Self {
+/// A rectangle of a picture, by its width and height, from the top left corner; it may reach beyond the picture.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Area {
+    low: DVec2,
+    high: DVec2,
+}
+
+impl Area {
+    /// Outside of it no primary ray meets a light's ball; `None` where none does anywhere. `aspect`: width by height;
+    /// `farthest`: no solid has a part that far from the camera.
+    pub fn of_balls(scene: &Scene, aspect: f64, farthest: f64) -> Option<Self> {
+        let areas = scene.lights.iter().filter_map(|light| Self::of_ball(light, &scene.camera, aspect, farthest));
+        areas.reduce(|a, b| Self { low: a.low.min(b.low), high: a.high.max(b.high) })
+    }
+
+    fn of_ball(light: &Light, camera: &Camera, aspect: f64, farthest: f64) -> Option<Self> {
         let Camera { position, direction, up, vertical_fov_degrees, projection } = *camera;
         let ahead = unit(direction);
         let left = unit(unit(up).cross(ahead));
@@ -41,25 +63,54 @@ impl Window {
             Projection::Centered => ([-1.0, 1.0], [-1.0, 1.0]),
             Projection::Course => ([-1.0, 3.0], [-3.0, 1.0]),
         };
-        let beyond = |side: DVec3, end: f64| (side - end * ahead).normalize();
-        Self {
-            camera: position,
-            normals: [
-                beyond(left, left_end * half_width),
-                beyond(-left, -right_end * half_width),
-                beyond(up, high_end * half_height),
-                beyond(-up, -low_end * half_height),
-                -ahead,
-            ],
-        }
+        let to_light = light.position - position;
+        let coordinates = to_light.length() + light.position.length() + farthest;
+        let radius = Light::BALL_RADIUS + SURELY * coordinates;
+        // From the picture's first edge, at a slope of `first` half extents, to the last one.
+        let part = |across: DVec3, half_extent: f64, first: f64, last: f64| {
+            let (least, greatest) = slopes(to_light.dot(across), to_light.dot(ahead), radius)?;
+            let place = |slope: f64| (first - slope / half_extent) / (first - last);
+            let (low, high) = (place(greatest), place(least));
+            // What is not a number, of places beyond all bounds, may be seen anywhere.
+            if low.is_nan() || high.is_nan() {
+                return Some((f64::NEG_INFINITY, f64::INFINITY));
+            }
+            (low <= 1.0 && high >= 0.0).then_some((low, high))
+        };
+        let (left_edge, right_edge) = part(left, half_width, left_end, right_end)?;
+        let (top, bottom) = part(up, half_height, high_end, low_end)?;
+        Some(Self { low: DVec2::new(left_edge, top), high: DVec2::new(right_edge, bottom) })
     }
 
-    fn may_show(&self, light: &Light) -> bool {
-        let to_light = light.position - self.camera;
-        let near = Light::BALL_RADIUS + SURELY * (to_light.abs().max_element() + light.position.abs().max_element());
-        // What is not a number, of places beyond all bounds, may be seen.
-        !self.normals.iter().any(|normal| to_light.dot(*normal) > near)
+    /// Along x and y, of a picture of `size`, and one more to each side: pixels are taken at their centres, with rounding.
+    pub fn pixels(self, size: [u32; 2]) -> [Range<u32>; 2] {
+        let along = |axis: usize| {
+            let count = f64::from(size[axis]);
+            // Within the picture, so that the numbers are small.
+            let pixel = |place: f64| place.clamp(0.0, 1.0) * count;
+            let first = (pixel(self.low[axis]).floor() - 1.0).max(0.0);
+            let end = (pixel(self.high[axis]).ceil() + 1.0).min(count);
+            first as u32..end as u32
+        };
+        [along(0), along(1)]
     }
+}
+
+/// The least and the greatest slope, across by ahead, of the lines from the origin that meet a disk ahead of it; `None`
+/// where it lies behind.
+fn slopes(across: f64, ahead: f64, radius: f64) -> Option<(f64, f64)> {
+    let distance = across.hypot(ahead);
+    // Not a number: anywhere.
+    if distance.is_nan() || distance <= radius {
+        return Some((f64::NEG_INFINITY, f64::INFINITY));
+    }
+    let (middle, half) = (across.atan2(ahead), (radius / distance).asin());
+    let (least, greatest) = (middle - half, middle + half);
+    if least >= FRAC_PI_2 || greatest <= -FRAC_PI_2 {
+        return None;
+    }
+    let slope = |angle: f64| if angle.abs() >= FRAC_PI_2 { f64::INFINITY.copysign(angle) } else { angle.tan() };
+    Some((slope(least), slope(greatest)))
 }
 
 fn unit(vector: DVec3) -> DVec3 {

@@ -19,6 +19,7 @@ mod solids;
 mod tiling;
 mod turns;
 
+pub use balls::Area;
 pub use budget::{Bounds, Cuts};
 pub use precision::Precision;
 pub use reason::{Line, Reason};

@@ -7,6 +7,28 @@ pub struct Part {
     pub groups: [u32; 2],
 }
 
+impl Part {
+    /// What of it lies in `area`, and the rest.
+    pub fn cut(self, area: Self) -> (Option<Self>, Vec<Self>) {
+        let end = |part: Self, axis: usize| part.first[axis] + part.groups[axis];
+        let low = [0, 1].map(|axis| self.first[axis].max(area.first[axis]));
+        let high = [0, 1].map(|axis| end(self, axis).min(end(area, axis)));
+        if low[0] >= high[0] || low[1] >= high[1] {
+            return (None, vec![self]);
+        }
+        let between = |low: [u32; 2], high: [u32; 2]| Self { first: low, groups: [high[0] - low[0], high[1] - low[1]] };
+        let ([left, top], [right, bottom]) = (self.first, [end(self, 0), end(self, 1)]);
+        let mut rest = vec![
+            between([left, top], [right, low[1]]),
+            between([left, low[1]], [low[0], high[1]]),
+            between([high[0], low[1]], [right, high[1]]),
+            between([left, high[1]], [right, bottom]),
+        ];
+        rest.retain(|part| part.groups[0] > 0 && part.groups[1] > 0);
+        (Some(between(low, high)), rest)
+    }
+}
+
 /// Goes through a picture's blocks, row by row, in an order that spreads over the whole picture early: what is
 /// not yet traced anew lies between rows that are, and chunks of it cost much the same.
 #[derive(Debug)]
@@ -115,6 +137,29 @@ mod tests {
             for row in *y..y + height {
                 for column in *x..x + width {
                     seen[(row * columns + column) as usize] += 1;
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_part_is_cut_in_what_lies_in_an_area_and_the_rest() {
+        let part = Part { first: [3, 2], groups: [5, 4] };
+        for first in [[0, 0], [3, 2], [4, 3], [7, 5], [8, 2], [0, 6]] {
+            for groups in [[1, 1], [2, 2], [20, 3], [3, 20], [20, 20], [0, 4]] {
+                let area = Part { first, groups };
+                let (inside, outside) = part.cut(area);
+                let mut seen = vec![0; 10 * 10];
+                cover(&outside, &mut seen, 10);
+                let is_in = |part: &Part, x: u32, y: u32| {
+                    let place = [x, y];
+                    (0..2).all(|i| (part.first[i]..part.first[i] + part.groups[i]).contains(&place[i]))
+                };
+                for (x, y) in (0..10).flat_map(|y| (0..10).map(move |x| (x, y))) {
+                    let is_inside = inside.is_some_and(|inside| is_in(&inside, x, y));
+                    assert_eq!(is_inside, is_in(&part, x, y) && is_in(&area, x, y), "{area:?}: {x} {y}");
+                    let times = seen[(y * 10 + x) as usize] + u32::from(is_inside);
+                    assert_eq!(times, u32::from(is_in(&part, x, y)), "{area:?}: {x} {y}");
                 }
             }
         }

@@ -8,8 +8,8 @@ use super::TracerError;
 use super::chunks::Part;
 use super::records::{FrameRecord, PrimitiveRecords};
 use crate::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, GpuError, PipelineDescription, Recorder,
-    Resource, Shader, Use,
+    BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, Dispatch, GpuError, PipelineDescription,
+    Recorder, Resource, Shader, Use,
 };
 use crate::scene::{COURSE_PRIMITIVE_LIMIT, Scene};
 
@@ -108,8 +108,8 @@ impl CourseKernel {
 
     /// Traces these parts of the picture.
     pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, frame: &FrameRecord, parts: &[Part]) {
-        let parts = parts.iter().map(|part| ([part.first[0], part.first[1], 0], [part.groups[0], part.groups[1], 1]));
-        recorder.dispatch_parts(&self.pipeline, set, bytemuck::bytes_of(frame), parts);
+        let parts: Vec<_> = parts.iter().map(|part| Dispatch::flat(&self.pipeline, part.first, part.groups)).collect();
+        recorder.dispatch_parts(set, bytemuck::bytes_of(frame), &parts);
     }
 
     /// The workgroups that cover so many pixels.

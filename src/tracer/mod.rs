@@ -19,6 +19,7 @@ mod settings;
 mod target;
 mod tiles;
 mod whitted;
+mod whitted_pipeline;
 mod whitted_records;
 
 use std::ops::ControlFlow;

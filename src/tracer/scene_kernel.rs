@@ -5,7 +5,8 @@ use super::course::{CourseKernel, CourseScene};
 use super::pixels::pixel_buffer;
 use super::records::FrameRecord;
 use super::tiles::Tile;
-use super::whitted::{WhittedPipeline, WhittedScene};
+use super::whitted::{WhittedPicture, WhittedScene};
+use super::whitted_pipeline::WhittedPipeline;
 use super::whitted_records::WhittedFrame;
 use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, StorageImage, shaders};
@@ -16,7 +17,7 @@ pub(super) enum SceneKernel {
     /// The frame is of the whole picture.
     Course { kernel: CourseKernel, frame: Box<FrameRecord> },
     /// The frame is of the whole picture.
-    Whitted { pipeline: WhittedPipeline, arrays: Vec<Resource>, frame: WhittedFrame },
+    Whitted { pipeline: WhittedPipeline, arrays: Vec<Resource>, picture: WhittedPicture },
 }
 
 impl SceneKernel {
@@ -35,7 +36,7 @@ impl SceneKernel {
             Kernel::Plain | Kernel::Whitted(_) => {
                 let scene = whitted_scene(device, scene, settings, max_depth)?;
                 let pipeline = WhittedPipeline::new(device, &scene, workgroup)?;
-                Self::Whitted { pipeline, arrays: scene.upload(device)?, frame: scene.frame }
+                Self::Whitted { pipeline, arrays: scene.upload(device)?, picture: scene.picture }
             }
         })
     }
@@ -53,13 +54,13 @@ impl SceneKernel {
     ) -> Result<(), TracerError> {
         let &Settings { kernel, workgroup, .. } = settings;
         match self {
-            Self::Whitted { pipeline, arrays, frame } if kernel != Kernel::Course => {
+            Self::Whitted { pipeline, arrays, picture } if kernel != Kernel::Course => {
                 let scene = whitted_scene(device, scene, settings, max_depth)?;
                 let new_arrays = scene.upload(device)?;
                 if !pipeline.fits(&scene, workgroup) {
                     *pipeline = WhittedPipeline::new(device, &scene, workgroup)?;
                 }
-                (*arrays, *frame) = (new_arrays, scene.frame);
+                (*arrays, *picture) = (new_arrays, scene.picture);
             }
             Self::Whitted { .. } | Self::Course { .. } => *self = Self::new(device, scene, settings, max_depth)?,
         }
@@ -111,8 +112,8 @@ impl SceneKernel {
 
     /// See [`Tracer::draw_remainder`](super::Tracer::draw_remainder).
     pub fn write_remainder(&mut self, remainder: bool) {
-        if let Self::Whitted { frame, .. } = self {
-            frame.writes_remainder = u32::from(remainder);
+        if let Self::Whitted { picture, .. } = self {
+            picture.frame.writes_remainder = u32::from(remainder);
         }
     }
 
@@ -127,9 +128,9 @@ impl SceneKernel {
         let part = Part { first: [0, 0], groups: self.groups([width, height]) };
         match self {
             Self::Course { kernel, frame } => kernel.record(recorder, set, &frame.at_tile(x, y), &[part]),
-            Self::Whitted { pipeline, frame, .. } => {
-                let frame = WhittedFrame { tile_origin: x | y << 16, tile_size: width | height << 16, ..*frame };
-                pipeline.record(recorder, set, &frame, sample, &[part]);
+            Self::Whitted { pipeline, picture, .. } => {
+                let frame = WhittedFrame { tile_origin: x | y << 16, tile_size: width | height << 16, ..picture.frame };
+                pipeline.record(recorder, set, &WhittedPicture { frame, ..*picture }, sample, &[part]);
             }
         }
     }

@@ -1,20 +1,16 @@
-//! The accurate kernel, `glsl/whitted.comp`: its pipeline with a scene on the device.
+//! A scene as the accurate kernel, `glsl/whitted.comp`, takes it.
 
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::chunks::Part;
 use super::kernel_frame::KernelFrame;
 use super::requirements::Requirements;
 use super::sampling::Sampling;
 use super::whitted_records::{WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError};
-use crate::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, GpuError, PipelineDescription, Recorder,
-    Resource, Texel, shaders,
-};
-use crate::plan::{Crowd, Cuts, MOST_PIXELS, Precision};
+use crate::gpu::{BindingKind, Buffer, BufferKind, Device, GpuError, Resource, Texel};
+use crate::plan::{Area, Crowd, Cuts, MOST_PIXELS, Precision};
 use crate::scene::Scene;
 
 impl Precision {
@@ -132,14 +128,22 @@ fn upload(device: &Arc<Device>, records: &WhittedRecords, precision: Precision) 
 /// The largest record: seven rows of four doubles.
 const EMPTY_ARRAY_BYTES: u64 = 7 * 32;
 
+/// What of a scene the camera sees.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) struct WhittedPicture {
+    pub frame: WhittedFrame,
+    /// Where balls of lights may be seen.
+    pub balls: Option<Area>,
+}
+
 /// A scene as the kernel takes it.
 #[derive(PartialEq)]
 pub(super) struct WhittedScene {
-    kernel: Kernel,
+    pub(super) kernel: Kernel,
     pub records: WhittedRecords,
-    requirements: Requirements,
-    /// Of the whole picture in one tile.
-    pub frame: WhittedFrame,
+    pub(super) requirements: Requirements,
+    /// The whole of it in one tile.
+    pub picture: WhittedPicture,
     /// Of each pixel.
     pub samples: u32,
     /// Linear RGB.
@@ -197,14 +201,18 @@ impl WhittedScene {
         };
         let requirements = Requirements::of(&records, &cuts, max_depth);
         let background = scene.background.as_vec3().to_array();
-        Ok(Self { kernel, records, requirements, frame, samples: 1, background })
+        // Twice what any coordinate may be from the frame's origin.
+        let farthest = 4.0 * f64::from(records.solids.frame.reach) / records.solids.frame.scale;
+        let balls = Area::of_balls(scene, f64::from(width) / f64::from(height), farthest);
+        let picture = WhittedPicture { frame, balls: balls.filter(|_| cuts.balls) };
+        Ok(Self { kernel, records, requirements, picture, samples: 1, background })
     }
 
     /// Traced so for a picture of `size` pixels: what the window shows stays the same to the last bit.
     pub fn sampled(mut self, sampling: Sampling, size: [u32; 2]) -> Self {
         let [width, height] = sampling.traced_size(size);
-        self.frame.image_size = width | height << 16;
-        self.frame.tile_size = self.frame.image_size;
+        self.picture.frame.image_size = width | height << 16;
+        self.picture.frame.tile_size = self.picture.frame.image_size;
         self.samples = sampling.samples;
         self.requirements.samples = sampling.samples > 1;
         self
@@ -230,95 +238,6 @@ impl WhittedScene {
     pub fn bytes(&self) -> u64 {
         let rows: usize = self.records.buffers().iter().map(|(_, rows)| rows.len()).sum();
         rows as u64 * self.kernel.precision().row_bytes() + self.records.solids.outlines.len() as u64 * Texel::BYTES
-    }
-}
-
-/// The kernel, specialised for what a scene requires.
-pub(super) struct WhittedPipeline {
-    pipeline: Arc<ComputePipeline>,
-    kernel: Kernel,
-    requirements: Requirements,
-    workgroup: [u32; 2],
-    /// That an invocation traces: workgroups below each other.
-    pub pixels: u32,
-}
-
-impl WhittedPipeline {
-    pub fn new(device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
-        Self::made(device, scene.kernel, scene.requirements, workgroup)
-    }
-
-    fn made(
-        device: &Arc<Device>,
-        kernel: Kernel,
-        requirements: Requirements,
-        workgroup: [u32; 2],
-    ) -> Result<Self, GpuError> {
-        let precision = kernel.precision();
-        let mut bindings = vec![BindingKind::Pixels];
-        bindings.extend(scene_bindings(precision));
-        // Packets are of invocations along x.
-        let octets = device.description().octets && workgroup[0].is_multiple_of(8);
-        let pixels = if octets { requirements.pixels } else { 1 };
-        let shader = match (kernel, octets) {
-            (Kernel::Whitted(Precision::F64), false) => &shaders::WHITTED_F64,
-            (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_OCTETS,
-            (Kernel::Whitted(Precision::F32), false) => &shaders::WHITTED_F32,
-            (Kernel::Whitted(Precision::F32), true) => &shaders::WHITTED_F32_OCTETS,
-            (Kernel::Plain | Kernel::Course, false) => &shaders::WHITTED_PLAIN,
-            (Kernel::Plain | Kernel::Course, true) => &shaders::WHITTED_PLAIN_OCTETS,
-        };
-        let description = PipelineDescription {
-            shader,
-            bindings: &bindings,
-            push_constant_bytes: size_of::<WhittedFrame>() as u32,
-            constants: &Requirements { pixels, ..requirements }.constants(device, precision, workgroup)?,
-        };
-        let pipeline = ComputePipeline::new(device, &description)?;
-        Ok(Self { pipeline, kernel, requirements, workgroup, pixels })
-    }
-
-    /// The same for pixels that are traced each by itself.
-    pub fn one_by_one(&self, device: &Arc<Device>) -> Result<Self, GpuError> {
-        Self::made(device, self.kernel, Requirements { pixels: 1, ..self.requirements }, self.workgroup)
-    }
-
-    /// Whether it draws that scene too, as one made for it would.
-    pub fn fits(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
-        self.serves(scene, workgroup) && self.requirements.pixels == scene.requirements.pixels
-    }
-
-    /// Whether it draws that scene too, if perhaps by fewer pixels in turn.
-    pub fn serves(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
-        let pixels = self.requirements.pixels;
-        let own = (self.kernel, self.requirements, self.workgroup);
-        pixels <= scene.requirements.pixels
-            && own == (scene.kernel, Requirements { pixels, ..scene.requirements }, workgroup)
-    }
-
-    /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.
-    pub fn bind(&self, picture: &Resource, arrays: &[Resource]) -> Result<Arc<BindingSet>, GpuError> {
-        let resources: Vec<_> = [picture].into_iter().chain(arrays).cloned().collect();
-        BindingSet::new(&self.pipeline, &resources)
-    }
-
-    /// Traces these parts of the picture: the sample with this index of each pixel, the ones before being there.
-    pub fn record(
-        &self,
-        recorder: &mut Recorder,
-        set: &Arc<BindingSet>,
-        frame: &WhittedFrame,
-        sample: u32,
-        parts: &[Part],
-    ) {
-        let frame = &frame.at_sample(sample);
-        let parts = parts.iter().map(|part| ([part.first[0], part.first[1], 0], [part.groups[0], part.groups[1], 1]));
-        recorder.dispatch_parts(&self.pipeline, set, bytemuck::bytes_of(frame), parts);
-    }
-
-    /// The workgroups that cover so many pixels.
-    pub fn groups(&self, [width, height]: [u32; 2]) -> [u32; 2] {
-        [width.div_ceil(self.workgroup[0]), height.div_ceil(self.workgroup[1] * self.pixels)]
     }
 }
 

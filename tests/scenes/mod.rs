@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use zerkalo::reference::{Image64, Pixel, Ray, World, render};
-use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, Solid, SolidKind};
+use zerkalo::scene::{Camera, Light, Material, Primitive, Projection, Scene, Solid, SolidKind};
 
 pub fn picture(scene: &Scene, width: u32, height: u32) -> Image64 {
     render(scene, width, height, &|_| ControlFlow::Continue(())).expect("a picture")
@@ -34,6 +34,21 @@ pub fn cube(center: DVec3, half_size: f64) -> Solid {
 
 pub fn light(x: f64, y: f64, z: f64) -> Light {
     Light { position: DVec3::new(x, y, z), intensity: DVec3::ONE }
+}
+
+/// Nothing but a light, somewhere near a camera of any direction and window.
+pub fn scene_of_a_light(index: u32) -> Scene {
+    // Numbers in [-1, 1), spread evenly (Roberts' R sequence in so many dimensions is good enough).
+    let number = |dimension: i32| (f64::from(index) * 1.1673f64.powi(-dimension)).fract() * 2.0 - 1.0;
+    let camera = Camera {
+        position: DVec3::new(number(1), number(2), number(3)) * 0.3,
+        direction: DVec3::new(number(4), number(5), number(6) + 0.1),
+        vertical_fov_degrees: 70.0 + 60.0 * number(7),
+        projection: if index.is_multiple_of(2) { Projection::Centered } else { Projection::Course },
+        ..Camera::default()
+    };
+    let lights = vec![Light { position: DVec3::new(number(8), number(9), number(10)) * 0.2, ..Light::default() }];
+    Scene { camera, lights, ..Scene::default() }
 }
 
 /// Two of each kind around the origin, mirrors of each other, lit from two sides.

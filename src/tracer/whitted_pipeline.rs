@@ -1,0 +1,130 @@
+//! The accurate kernel's pipelines, specialised for what a scene requires.
+
+use std::sync::Arc;
+
+use super::Kernel;
+use super::chunks::Part;
+use super::requirements::Requirements;
+use super::whitted::{WhittedPicture, WhittedScene, scene_bindings};
+use super::whitted_records::WhittedFrame;
+use crate::gpu::{
+    BindingKind, BindingSet, ComputePipeline, Device, Dispatch, GpuError, PipelineDescription, Recorder, Resource,
+    shaders,
+};
+use crate::plan::{Area, Precision};
+
+/// The kernel, specialised for what a scene requires.
+pub(super) struct WhittedPipeline {
+    /// Does all that is required.
+    whole: Arc<ComputePipeline>,
+    /// For where no ball of a light may be seen.
+    without_balls: Arc<ComputePipeline>,
+    kernel: Kernel,
+    requirements: Requirements,
+    workgroup: [u32; 2],
+    /// That an invocation traces: workgroups below each other.
+    pub pixels: u32,
+}
+
+impl WhittedPipeline {
+    pub fn new(device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
+        Self::made(device, scene.kernel, scene.requirements, workgroup)
+    }
+
+    fn made(
+        device: &Arc<Device>,
+        kernel: Kernel,
+        requirements: Requirements,
+        workgroup: [u32; 2],
+    ) -> Result<Self, GpuError> {
+        let precision = kernel.precision();
+        let mut bindings = vec![BindingKind::Pixels];
+        bindings.extend(scene_bindings(precision));
+        // Packets are of invocations along x.
+        let octets = device.description().octets && workgroup[0].is_multiple_of(8);
+        let pixels = if octets { requirements.pixels } else { 1 };
+        let shader = match (kernel, octets) {
+            (Kernel::Whitted(Precision::F64), false) => &shaders::WHITTED_F64,
+            (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_OCTETS,
+            (Kernel::Whitted(Precision::F32), false) => &shaders::WHITTED_F32,
+            (Kernel::Whitted(Precision::F32), true) => &shaders::WHITTED_F32_OCTETS,
+            (Kernel::Plain | Kernel::Course, false) => &shaders::WHITTED_PLAIN,
+            (Kernel::Plain | Kernel::Course, true) => &shaders::WHITTED_PLAIN_OCTETS,
+        };
+        let push_constant_bytes = size_of::<WhittedFrame>() as u32;
+        let own = Requirements { pixels, ..requirements };
+        let constants = own.constants(device, precision, workgroup)?;
+        let description =
+            PipelineDescription { shader, bindings: &bindings, push_constant_bytes, constants: &constants };
+        let whole = ComputePipeline::new(device, &description)?;
+        let without_balls = if own.balls > 0 {
+            let constants = Requirements { balls: 0, ..own }.constants(device, precision, workgroup)?;
+            whole.sibling(&PipelineDescription { constants: &constants, ..description })?
+        } else {
+            whole.clone()
+        };
+        Ok(Self { whole, without_balls, kernel, requirements, workgroup, pixels })
+    }
+
+    /// The same for pixels that are traced each by itself.
+    pub fn one_by_one(&self, device: &Arc<Device>) -> Result<Self, GpuError> {
+        Self::made(device, self.kernel, Requirements { pixels: 1, ..self.requirements }, self.workgroup)
+    }
+
+    /// Whether it draws that scene too, as one made for it would.
+    pub fn fits(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
+        self.serves(scene, workgroup) && self.requirements.pixels == scene.requirements.pixels
+    }
+
+    /// Whether it draws that scene too, if perhaps by fewer pixels in turn.
+    pub fn serves(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
+        let pixels = self.requirements.pixels;
+        let own = (self.kernel, self.requirements, self.workgroup);
+        pixels <= scene.requirements.pixels
+            && own == (scene.kernel, Requirements { pixels, ..scene.requirements }, workgroup)
+    }
+
+    /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.
+    pub fn bind(&self, picture: &Resource, arrays: &[Resource]) -> Result<Arc<BindingSet>, GpuError> {
+        let resources: Vec<_> = [picture].into_iter().chain(arrays).cloned().collect();
+        BindingSet::new(&self.whole, &resources)
+    }
+
+    /// Traces these parts of the picture: the sample with this index of each pixel, the ones before being there.
+    pub fn record(
+        &self,
+        recorder: &mut Recorder,
+        set: &Arc<BindingSet>,
+        picture: &WhittedPicture,
+        sample: u32,
+        parts: &[Part],
+    ) {
+        let WhittedPicture { frame, balls } = picture;
+        let balls = balls.map(|area| self.part_of(area, frame));
+        let cut = |part: &Part| balls.map_or_else(|| (None, vec![*part]), |area| part.cut(area));
+        let mut dispatches = Vec::new();
+        for part in parts {
+            let (with_balls, others) = cut(part);
+            dispatches.extend(with_balls.map(|part| Dispatch::flat(&self.whole, part.first, part.groups)));
+            let others = others.iter();
+            dispatches.extend(others.map(|part| Dispatch::flat(&self.without_balls, part.first, part.groups)));
+        }
+        recorder.dispatch_parts(set, bytemuck::bytes_of(&frame.at_sample(sample)), &dispatches);
+    }
+
+    /// The workgroups of a tile that an area of the picture touches, and perhaps some beyond it.
+    fn part_of(&self, area: Area, frame: &WhittedFrame) -> Part {
+        let unpacked = |packed: u32| [packed & 0xFFFF, packed >> 16];
+        let pixels = area.pixels(unpacked(frame.image_size));
+        let tile = unpacked(frame.tile_origin);
+        let group = [self.workgroup[0], self.workgroup[1] * self.pixels];
+        let first = [0, 1].map(|axis| pixels[axis].start.saturating_sub(tile[axis]) / group[axis]);
+        let end = [0, 1].map(|axis| pixels[axis].end.saturating_sub(tile[axis]).div_ceil(group[axis]));
+        Part { first, groups: [0, 1].map(|axis| end[axis].saturating_sub(first[axis])) }
+    }
+
+    /// The workgroups that cover so many pixels.
+    pub fn groups(&self, [width, height]: [u32; 2]) -> [u32; 2] {
+        [width.div_ceil(self.workgroup[0]), height.div_ceil(self.workgroup[1] * self.pixels)]
+    }
+}
