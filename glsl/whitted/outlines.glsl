@@ -80,12 +80,14 @@ void settle_box(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
     settle(is_there && is_deep, near + beam.plane_error, sine, 1.0, beam, found);
 }
 
-// A ball around a solid: its centre, and the square of its radius, which is negative where there is no solid. The radius
-// is larger by what rounding may put a line off that: DISTANCE_ERROR of the distance, at most 7 * frame.reach, are 7 place
-// errors, outlines are wrong by up to 4, and the ray's place and direction by one.
-vec4 ball_around(vec3 center, float radius_squared, bool is_there) {
-    float radius = sqrt(radius_squared) * (1.0 + 8.0 * FLOAT_ROUNDOFF) + 16.0 * place_error();
-    return vec4(center, is_there ? radius * radius : -FAR);
+// The ball about the centre of a cylinder around a solid: the centre, and the square of the ball's radius, which is negative
+// where there is no solid. The radius is larger by what rounding may put a line off that: DISTANCE_ERROR of the distance, at
+// most 7 * frame.reach, are 7 place errors, outlines are wrong by up to 4, and the ray's place and direction by one.
+vec4 ball_around(vec3 center, float radius, float half_length, bool is_there) {
+    float larger = 16.0 * place_error(), squared = radius * radius + half_length * half_length;
+    // (r + larger)^2, of which r is no more than the sum of both; rounded a few times.
+    squared += (2.0 * larger) * (radius + half_length + larger) + (16.0 * FLOAT_ROUNDOFF) * squared;
+    return vec4(center, is_there ? squared : -FAR);
 }
 
 // All bits where the ray misses a ball.
@@ -125,23 +127,22 @@ uint key_of_cylinder(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     return key_of(near + (closest_t - 4.0 * place_error()), never, entry, k);
 }
 
-vec4 ball_of_cylinder(vec4 a, vec4 b) { return ball_around(a.xyz, a.w * a.w + b.w * b.w, b.w >= 0.0); }
+vec4 ball_of_cylinder(vec4 a, vec4 b) { return ball_around(a.xyz, a.w, b.w, b.w >= 0.0); }
 
 void settle_cylinder(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {}
 
 // Below this sine of the half-angle a cone is taken for all between the planes of its apex and its base.
 const float LEAST_SINE = 0.015625;
 
-// a: apex, height; b: unit axis, tangent of half the half-angle.
+// a: apex, height; b: unit axis, base radius.
 uint key_of_cone(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     vec3 from_apex = beam.origin - a.xyz;
     float closest_t = -dot(from_apex, beam.direction);
     vec3 closest = from_apex + closest_t * beam.direction;
     float along = dot(b.xyz, closest), along_slope = dot(b.xyz, beam.direction);
     vec3 across = closest - along * b.xyz, slope = beam.direction - along_slope * b.xyz;
-    float by_secant = 1.0 / (1.0 + b.w * b.w);
-    float sine = 2.0 * b.w * by_secant, cosine = (1.0 - b.w) * (1.0 + b.w) * by_secant;
-    float sine_squared = sine * sine, cosine_squared = cosine * cosine;
+    float height_squared = a.w * a.w, base_squared = b.w * b.w, by_sum = 1.0 / (height_squared + base_squared);
+    float sine_squared = base_squared * by_sum, cosine_squared = height_squared * by_sum, sine = sqrt(sine_squared);
     // With the apex drawn back, so that the side is farther out by 4 place errors.
     float depth = along + 4.0 * place_error() / max(sine, LEAST_SINE);
 
@@ -176,13 +177,8 @@ uint key_of_cone(vec4 a, vec4 b, Beam beam, int entry, uint k) {
 }
 
 vec4 ball_of_cone(vec4 a, vec4 b) {
-    // Rounded to float, the tangent may be too small by half of that, which in a blunt cone is much of what 1 exceeds it by.
-    float tangent = b.w + 2.0 * FLOAT_ROUNDOFF;
-    float base_radius = abs(a.w * (2.0 * tangent) / ((1.0 - tangent) * (1.0 + tangent)));
-    // Of a disk whose points have no coordinate above 2 * frame.reach.
-    base_radius = min(base_radius, 3.0 * frame.reach);
     float half_height = 0.5 * a.w;
-    return ball_around(a.xyz + half_height * b.xyz, half_height * half_height + base_radius * base_radius, b.w >= 0.0);
+    return ball_around(a.xyz + half_height * b.xyz, b.w, half_height, b.w >= 0.0);
 }
 
 void settle_cone(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {}

@@ -25,27 +25,13 @@ uint next_generation(Real3 emitted, bool is_hit, Real specular, inout Path path)
     return HAS_REFLECTIONS && goes_further ? REFLECTED : ENDED;
 }
 
-// Of an invocation's pixels.
-struct Traced {
-    Real3 colors[MOST_PIXELS]; // linear RGB
-    uint begun;                // how many; the last may have been given up
-};
-
-void put(uint index, Real3 color, inout Traced traced) {
-#define PUT_ONE(k) \
-    if (k < PIXELS && index == k) traced.colors[k] = color;
-    EIGHT_TIMES(PUT_ONE)
-#undef PUT_ONE
-}
-
 // Rays of all generations, to the nearest hit and to lights, go the same way, so that neighbours in different stages do not
 // wait for each other, and one exact solve stands in the code. The search, which every ray needs, is the inner loop; what
 // only a ray with a candidate or a hit needs is gone through when some ray of the packet is there. A packet whose rays all
 // came to their end goes on to its next pixels in that loop too: at the end of each pixel the rest would be gone through
 // for nobody.
-Traced trace(View view) {
-    Traced traced;
-    traced.begun = 0u;
+void trace(View view) {
+    uint begun = 0u; // of the invocation's pixels
     Path path = Path(Real3(0.0), 1.0, 0u);
     uint purpose = ENDED;
     bool is_packet_at_rest = true;
@@ -78,16 +64,16 @@ Traced trace(View view) {
         bool is_shadow_ray, is_candidate, is_unshaded;
         for (;;) {
             turns++;
-            bool starts = is_packet_at_rest && traced.begun < PIXELS;
+            bool starts = is_packet_at_rest && begun < PIXELS;
             bool is_reflected = HAS_REFLECTIONS && purpose == REFLECTED;
             if (starts || is_reflected) {
                 Real3 direction;
                 if (starts) {
-                    uvec2 pixel = tile_pixel(traced.begun);
+                    uvec2 pixel = tile_pixel(begun);
                     direction = primary_direction(pixel, view);
                     purpose = is_there(pixel) ? TO_NEAREST : ENDED;
-                    if (traced.begun > 0u) put(traced.begun - 1u, path.color, traced);
-                    traced.begun++;
+                    if (begun > 0u) put(begun - 1u, path.color, true);
+                    begun++;
                     path = Path(Real3(0.0), 1.0, 0u);
                     departure = Departure(NOTHING, CURVED, false);
                 } else if (HAS_REFLECTIONS) {
@@ -127,7 +113,7 @@ Traced trace(View view) {
             uint there_is = (is_candidate || is_unshaded ? WORK : 0u) | (purpose != ENDED ? RAY : 0u);
             there_is = bits_of_packet(there_is);
             is_packet_at_rest = there_is == 0u;
-            bool goes_on = there_is == RAY || (is_packet_at_rest && traced.begun < PIXELS);
+            bool goes_on = there_is == RAY || (is_packet_at_rest && begun < PIXELS);
             // Rays that go each for itself take a turn of all: left by one after another, this loop is what Mesa 22.3 draws
             // scenes with several lights wrong from.
             if (!IN_PACKETS || !goes_on || turns >= LOOP_TURNS) break;
@@ -219,8 +205,13 @@ Traced trace(View view) {
             purpose = next_generation(emitted, is_hit, matter.specular, path);
         }
         is_packet_at_rest = !any_of_packet(purpose != ENDED);
-        if ((is_packet_at_rest && traced.begun == PIXELS) || turns >= LOOP_TURNS) break;
+        if ((is_packet_at_rest && begun == PIXELS) || turns >= LOOP_TURNS) break;
     }
-    put(traced.begun - 1u, path.color, traced);
-    return traced;
+    // The last one, which turns may have run out for, and with it those that have not been begun: black.
+    for (;;) {
+        put(begun - 1u, path.color, turns < LOOP_TURNS);
+        if (begun == PIXELS) break;
+        begun++;
+        path.color = Real3(0.0);
+    }
 }

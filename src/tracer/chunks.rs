@@ -29,6 +29,32 @@ impl Part {
     }
 }
 
+/// A dispatch of a part: column `x * groups[2] + z` of row `y`, from `first` on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shares {
+    pub first: [u32; 3],
+    pub groups: [u32; 3],
+}
+
+impl Part {
+    /// Dispatches for a device that gives each of so many threads one run of the workgroups, x first and z last, as Mesa's
+    /// CPU drivers do. A run is then every n-th column, so that no thread is left with the part of a picture that takes
+    /// longest: of runs of whole rows, one has the sky.
+    pub fn shares(self, threads: u32) -> Vec<Shares> {
+        let ([column, row], [columns, rows]) = (self.first, self.groups);
+        let mut shares = threads.max(1);
+        while shares > 1 && columns < 2 * shares {
+            shares /= 2;
+        }
+        let rest = columns % shares;
+        let even = Shares { first: [0, row, column], groups: [columns / shares, rows, shares] };
+        let odd = Shares { first: [0, row, column + columns - rest], groups: [1, rows, rest] };
+        let mut dispatches = vec![even, odd];
+        dispatches.retain(|dispatch| !dispatch.groups.contains(&0));
+        dispatches
+    }
+}
+
 /// Goes through a picture's blocks, row by row, in an order that spreads over the whole picture early: what is
 /// not yet traced anew lies between rows that are, and chunks of it cost much the same.
 #[derive(Debug)]
@@ -163,6 +189,31 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn shares_are_the_part_once_and_each_of_them_has_columns_all_over_it() {
+        for threads in [0, 1, 2, 3, 4, 16, 64] {
+            for (columns, rows) in [(1, 1), (2, 1), (5, 2), (32, 4), (11, 3), (203, 11)] {
+                let part = Part { first: [7, 3], groups: [columns, rows] };
+                let mut seen = vec![0; 300 * 20];
+                for Shares { first, groups } in part.shares(threads) {
+                    for x in first[0]..first[0] + groups[0] {
+                        for (y, z) in (0..groups[1]).flat_map(|y| (0..groups[2]).map(move |z| (y, z))) {
+                            let column = x * groups[2] + first[2] + z;
+                            seen[((first[1] + y) * 300 + column) as usize] += 1;
+                        }
+                    }
+                }
+                let mut all = vec![0; 300 * 20];
+                cover(&[part], &mut all, 300);
+                assert!(seen == all, "{columns}x{rows} for {threads}");
+            }
+        }
+        let part = Part { first: [0, 0], groups: [33, 4] };
+        assert_eq!(part.shares(4)[0], Shares { first: [0, 0, 0], groups: [8, 4, 4] });
+        assert_eq!(part.shares(4)[1], Shares { first: [0, 0, 32], groups: [1, 4, 1] });
+        assert_eq!(part.shares(1), [Shares { first: [0, 0, 0], groups: [33, 4, 1] }]);
     }
 
     #[test]

@@ -46,8 +46,9 @@ pub fn outline(solid: &Solid, bounds: Bounds, frame: KernelFrame) -> impl Iterat
             (narrow(half_a + half_b, radius * scale), Some(narrow(axis, half_axis.length())))
         }
         Solid::Cone { apex, axis, height, half_angle_degrees } => {
-            let tangent_of_half = (half_angle_degrees.to_radians() / 2.0).tan();
-            (narrow(frame.point(apex), height * scale), Some(narrow(axis, tangent_of_half)))
+            let height = height * scale;
+            let base_radius = height * half_angle_degrees.to_radians().tan();
+            (narrow(frame.point(apex), height), Some(narrow(axis, base_radius)))
         }
     };
     [first].into_iter().chain(second)

@@ -1,15 +1,16 @@
 //! The accurate kernel's pipelines, specialised for what a scene requires.
 
 use std::sync::Arc;
+use std::thread::available_parallelism;
 
 use super::Kernel;
-use super::chunks::Part;
+use super::chunks::{Part, Shares};
 use super::requirements::Requirements;
 use super::whitted::{WhittedPicture, WhittedScene, scene_bindings};
 use super::whitted_records::WhittedFrame;
 use crate::gpu::{
-    BindingKind, BindingSet, ComputePipeline, Device, Dispatch, GpuError, PipelineDescription, Recorder, Resource,
-    shaders,
+    BindingKind, BindingSet, ComputePipeline, Device, DeviceKind, Dispatch, GpuError, PipelineDescription, Recorder,
+    Resource, shaders,
 };
 use crate::plan::{Area, Precision};
 
@@ -24,6 +25,16 @@ pub(super) struct WhittedPipeline {
     workgroup: [u32; 2],
     /// That an invocation traces: workgroups below each other.
     pub pixels: u32,
+    /// See [`Part::shares`].
+    threads: u32,
+}
+
+/// Of a driver that runs workgroups on CPUs.
+fn threads(device: &Device) -> u32 {
+    match device.description().kind {
+        DeviceKind::Cpu => available_parallelism().map_or(1, |threads| threads.get() as u32),
+        DeviceKind::Discrete | DeviceKind::Integrated | DeviceKind::Virtual | DeviceKind::Other => 1,
+    }
 }
 
 impl WhittedPipeline {
@@ -63,7 +74,7 @@ impl WhittedPipeline {
         } else {
             whole.clone()
         };
-        Ok(Self { whole, without_balls, kernel, requirements, workgroup, pixels })
+        Ok(Self { whole, without_balls, kernel, requirements, workgroup, pixels, threads: threads(device) })
     }
 
     /// The same for pixels that are traced each by itself.
@@ -103,11 +114,14 @@ impl WhittedPipeline {
         let balls = balls.map(|area| self.part_of(area, frame));
         let cut = |part: &Part| balls.map_or_else(|| (None, vec![*part]), |area| part.cut(area));
         let mut dispatches = Vec::new();
+        let mut dispatch = |part: Part, pipeline| {
+            let shares = part.shares(self.threads).into_iter();
+            dispatches.extend(shares.map(|Shares { first, groups }| Dispatch { pipeline, first, groups }));
+        };
         for part in parts {
             let (with_balls, others) = cut(part);
-            dispatches.extend(with_balls.map(|part| Dispatch::flat(&self.whole, part.first, part.groups)));
-            let others = others.iter();
-            dispatches.extend(others.map(|part| Dispatch::flat(&self.without_balls, part.first, part.groups)));
+            with_balls.into_iter().for_each(|part| dispatch(part, &self.whole));
+            others.into_iter().for_each(|part| dispatch(part, &self.without_balls));
         }
         recorder.dispatch_parts(set, bytemuck::bytes_of(&frame.at_sample(sample)), &dispatches);
     }
