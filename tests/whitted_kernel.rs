@@ -78,7 +78,7 @@ fn pixels_that_took_too_long_in_company_are_traced_alone() {
     let in_company = Settings { pixels: Some(8), ..alone.clone() };
     assert!(render(&device, &on_one_place, &in_company) == render(&device, &on_one_place, &alone));
     let Scene { primitives, lights, max_depth, .. } = &on_one_place;
-    assert_eq!(Crowd::of(primitives).pixels_in_turn(lights.len(), *max_depth), 1, "and is not tried");
+    assert_eq!(Crowd::of(primitives).pixels_in_turn(lights.len(), *max_depth, 8), 1, "and is not tried");
 }
 
 /// Only primary rays look for the balls of lights, or each ray's turns would grow by the lights' number.

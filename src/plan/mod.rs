@@ -23,7 +23,7 @@ pub use balls::Area;
 pub use budget::{Bounds, Cuts};
 pub use precision::Precision;
 pub use reason::{Line, Reason};
-pub use tiling::tile_side;
+pub use tiling::{tile_side, tried_under_boxes};
 pub use turns::{CPU_LOOP_TURNS, Crowd, MOST_PIXELS};
 
 use glam::DVec3;

@@ -12,7 +12,7 @@ pub const CPU_LOOP_TURNS: u32 = 60_000;
 /// the search, and reads the camera once.
 pub const MOST_PIXELS: u32 = 8;
 
-/// More solids are not looked at: their pixels take long by themselves, and gain little by company.
+/// More solids are not looked at: that takes time by the square of their number.
 const MOST_SOLIDS: usize = 512;
 
 /// Solids that a ray may have to solve exactly besides those that it may meet at one place: an outline that it touches in
@@ -25,17 +25,16 @@ const AROUND: u64 = 4;
 /// What a ray may have to do among some primitives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Crowd {
-    /// Of one search and the solve after it, in half of the boxes.
-    turns: u64,
-    /// How many of these at most.
-    solved: u64,
+    /// Of one search and the solve after it, in half of the boxes, times how many of these at most; `None` among more
+    /// primitives than are looked at.
+    turns: Option<u64>,
 }
 
 impl Crowd {
     /// Takes time by the square of their number, up to 512 of them.
     pub fn of(primitives: &[Primitive]) -> Self {
         if primitives.len() > MOST_SOLIDS {
-            return Self { turns: u64::MAX, solved: u64::MAX };
+            return Self { turns: None };
         }
         let count = |kind: SolidKind| primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count();
         // A turn for each group of eight solids, or of eight boxes over them.
@@ -43,14 +42,16 @@ impl Crowd {
         let search: u64 = SolidKind::ALL.into_iter().map(|kind| groups(count(kind))).sum();
         // A box that is turned is tried by the upright box around it, which a ray may meet for nothing.
         let solved = 1 + TOUCHED + most_in_one_place(primitives) + turned_boxes(primitives);
-        Self { turns: search + AROUND, solved: solved as u64 }
+        Self { turns: Some((search + AROUND) * solved as u64) }
     }
 
     /// How many pixels a packet's invocations trace in turn: eight, or the largest power of two so that the driver's loops
-    /// have time for all of them. An estimate: what it is wrong about, a tracer traces once more, pixel by pixel.
-    pub fn pixels_in_turn(self, lights: usize, generations: u32) -> u32 {
+    /// have time for all of them. An estimate: what it is wrong about, a tracer traces once more, pixel by pixel, and a
+    /// window shows black. `unknown`: of so many where the primitives have not been looked at.
+    pub fn pixels_in_turn(self, lights: usize, generations: u32, unknown: u32) -> u32 {
+        let Some(turns) = self.turns else { return unknown };
         let rays = u64::from(generations) * (1 + lights as u64);
-        let turns = self.turns.saturating_mul(self.solved).saturating_mul(rays);
+        let turns = turns.saturating_mul(rays);
         let fits = |pixels: u32| turns.saturating_mul(pixels.into()) <= CPU_LOOP_TURNS.into();
         let mut pixels = MOST_PIXELS;
         while pixels > 1 && !fits(pixels) {
@@ -73,7 +74,7 @@ pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decisi
     if !limits.packets {
         return Decision { choice: 1, reason: Reason::NoPackets };
     }
-    let choice = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), generations);
+    let choice = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), generations, MOST_PIXELS);
     Decision { choice, reason: if choice > 1 { Reason::PixelsInTurn } else { Reason::LongPixels } }
 }
 
@@ -87,7 +88,7 @@ mod tests {
     }
 
     fn pixels_in_turn(scene: &Scene, generations: u32) -> u32 {
-        Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), generations)
+        Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), generations, 3)
     }
 
     #[test]
@@ -100,7 +101,7 @@ mod tests {
             assert_eq!(pixels_in_turn(&scene, scene.max_depth), 8, "{name}");
         }
         assert_eq!(pixels_in_turn(&scene("grid-sphere-100"), 1000), 1, "many generations");
-        assert_eq!(pixels_in_turn(&scene("cloud-10000"), 20), 1, "many solids");
+        assert_eq!(pixels_in_turn(&scene("cloud-10000"), 20), 3, "too many solids to tell");
         let lights = vec![Light::default(); 50];
         assert_eq!(pixels_in_turn(&Scene { lights, ..scene("grid-sphere-100") }, 20), 1, "many lights");
     }

@@ -87,7 +87,8 @@ impl LiveWhitted {
         };
         let records = WhittedRecords::with(scene, solids, precision, size);
         let max_depth = work.max_depth.unwrap_or(scene.max_depth);
-        let pixels = primitives.crowd.pixels_in_turn(scene.lights.len(), max_depth);
+        // Of what a window shows, nothing is traced again that took too long.
+        let pixels = primitives.crowd.pixels_in_turn(scene.lights.len(), max_depth, 1);
         let scene = WhittedScene::with(&self.device, scene, records, self.kernel, work.cuts, max_depth, size)?;
         let scene = scene.in_turn(pixels);
         let scene = if work.without_boxes { scene.without_boxes() } else { scene };

@@ -6,9 +6,9 @@ use super::enlarge::Enlarger;
 use super::pixels::largest_side;
 use super::scene_kernel::SceneKernel;
 use super::tiles::{Tile, tiles};
-use super::{Settings, TracerError};
+use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Buffer, BufferKind, Device, PIXEL_BYTES, Resource, StorageImage};
-use crate::plan::tile_side;
+use crate::plan::{tile_side, tried_under_boxes};
 use crate::scene::Scene;
 
 pub(super) struct Target {
@@ -92,7 +92,10 @@ impl Target {
 /// Of what one submission traces, pixels: at most `limit`.
 fn traced_side(scene: &Scene, settings: &Settings, max_depth: u32, limit: u32) -> u32 {
     let max_tile_side = settings.max_tile_side.clamp(1, limit);
-    tile_side(max_tile_side, scene.primitives.len(), scene.lights.len(), max_depth)
+    let solids = scene.primitives.len();
+    let has_boxes = settings.kernel != Kernel::Course && !settings.without_boxes;
+    let tried = if has_boxes { tried_under_boxes(solids) } else { solids };
+    tile_side(max_tile_side, tried, scene.lights.len(), max_depth)
 }
 
 /// Of the tile made from that, but for the neighbours that its edge needs.

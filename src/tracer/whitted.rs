@@ -165,7 +165,7 @@ impl WhittedScene {
     ) -> Result<Self, TracerError> {
         check_precision(device, kernel.precision())?;
         let records = WhittedRecords::of(scene, KernelFrame::of(scene), kernel.precision(), size);
-        let pixels = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), max_depth);
+        let pixels = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), max_depth, MOST_PIXELS);
         Ok(Self::with(device, scene, records, kernel, cuts, max_depth, size)?.in_turn(pixels))
     }
 
