@@ -15,7 +15,7 @@ use glam::DVec3;
 use oracle::random::Random;
 use scenes::picture;
 use zerkalo::measure::{Difference, bars};
-use zerkalo::plan::{Cuts, Limits, Plan, Precision, Wishes};
+use zerkalo::plan::{Crowd, Cuts, Limits, MOST_PIXELS, Plan, Precision, Wishes};
 use zerkalo::scene::Scene;
 use zerkalo::tracer::{Kernel, Settings, Tracer};
 
@@ -33,7 +33,7 @@ fn plan(scene: &Scene, precision: Precision, error: f64) -> Plan {
 /// A tracer for each pipeline that the pictures take: compiling one takes longer than drawing them all.
 struct Easel<'a> {
     device: &'a TestDevice,
-    tracers: HashMap<(&'static str, [bool; 4]), Tracer>,
+    tracers: HashMap<(&'static str, [bool; 4], u32), Tracer>,
 }
 
 impl<'a> Easel<'a> {
@@ -44,7 +44,9 @@ impl<'a> Easel<'a> {
     fn draw(&mut self, scene: &Scene, settings: &Settings) -> Vec<DVec3> {
         let Cuts { highlights, lights, shadows, reflections, .. } = settings.cuts;
         let compiled_in = [highlights, lights, shadows, reflections];
-        let tracer = match self.tracers.entry((settings.kernel.precision().name(), compiled_in)) {
+        let depth = settings.max_depth.unwrap_or(scene.max_depth);
+        let pixels = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), depth, MOST_PIXELS);
+        let tracer = match self.tracers.entry((settings.kernel.precision().name(), compiled_in, pixels)) {
             Entry::Occupied(entry) => {
                 let tracer = entry.into_mut();
                 tracer.take_up(scene, settings).unwrap();

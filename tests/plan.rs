@@ -259,6 +259,8 @@ fn few_solids_are_tried_one_by_one_in_small_workgroups_and_tiles_fit_the_device(
     assert_eq!(tile(&Limits { max_image_side: 512, ..DEVICE }, &few).choice, 512);
     let grid = gallery::scene("grid-sphere-100").unwrap();
     assert_eq!((tile(&DEVICE, &grid).choice, tile(&DEVICE, &grid).reason), (256, Reason::HeavyTiles { largest: 1024 }));
+    let [some, many] = ["cloud-sphere-128", "cloud-sphere-10000"].map(|name| gallery::scene(name).unwrap());
+    assert_eq!(tile(&DEVICE, &some).choice, tile(&DEVICE, &many).choice, "boxes keep rays from most of them");
 }
 
 #[test]

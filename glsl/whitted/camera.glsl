@@ -18,7 +18,7 @@ uvec2 tile_pixel(uint index) {
     uvec2 place = gl_LocalInvocationID.xy;
     bool is_square = gl_WorkGroupSize.x == 8u && gl_WorkGroupSize.y % 2u == 0u;
     place = is_square ? uvec2((place.x & 3u) | (place.y & 1u) << 2, (place.y & ~1u) | place.x >> 2) : place;
-    // Columns of workgroups lie side by side along z, in `shares` of src/tracer/chunks.rs.
+    // Columns of workgroups lie side by side along z: `Part::shares` of src/tracer/parts.rs.
     uint column = gl_WorkGroupID.x * gl_NumWorkGroups.z + gl_WorkGroupID.z;
     uvec2 workgroup = uvec2(column, PIXELS * gl_WorkGroupID.y + index);
     return workgroup * gl_WorkGroupSize.xy + place;

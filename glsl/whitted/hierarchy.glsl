@@ -1,6 +1,6 @@
 // The search through the solids of a kind, included once for each: SEARCH is its name, KEY_OF and SETTLE what looks at an
 // outline of OUTLINE_ROWS rows, KIND the kind and LEVELS the number of levels over the solids. Where IS_DEAR, KEY_OF takes
-// so long that a packet tries BALL_OF, a ball around the solid, before.
+// so long that a packet first tries BALL_OF, a ball around the solid.
 //
 // The solids lie in such an order that each eight that begin with a multiple of eight are near each other, and so are
 // each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what is

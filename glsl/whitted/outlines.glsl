@@ -80,8 +80,8 @@ void settle_box(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
     settle(is_there && is_deep, near + beam.plane_error, sine, 1.0, beam, found);
 }
 
-// The ball about the centre of a cylinder around a solid: the centre, and the square of the ball's radius, which is negative
-// where there is no solid. The radius is larger by what rounding may put a line off that: DISTANCE_ERROR of the distance, at
+// A ball around the cylinder that encloses a solid: its centre, and the square of its radius, which is negative where there
+// is no solid. The radius is larger by what rounding may put a line off that: DISTANCE_ERROR of the distance, at
 // most 7 * frame.reach, are 7 place errors, outlines are wrong by up to 4, and the ray's place and direction by one.
 vec4 ball_around(vec3 center, float radius, float half_length, bool is_there) {
     float larger = 16.0 * place_error(), squared = radius * radius + half_length * half_length;

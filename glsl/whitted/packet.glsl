@@ -8,17 +8,12 @@
 #extension GL_KHR_shader_subgroup_shuffle : require
 const bool IN_PACKETS = true;
 
-#define OF_PACKET(TYPE, name, COMBINED)                       \
-    TYPE name(TYPE mine) {                                    \
-        TYPE all = mine;                                      \
-        all = COMBINED(all, subgroupShuffleXor(all, 1u));     \
-        all = COMBINED(all, subgroupShuffleXor(all, 2u));     \
-        return COMBINED(all, subgroupShuffleXor(all, 4u));    \
-    }
-#define EITHER(a, b) ((a) | (b))
-OF_PACKET(uint, bits_of_packet, EITHER)
-#undef OF_PACKET
-#undef EITHER
+uint bits_of_packet(uint mine) {
+    uint all = mine;
+    all |= subgroupShuffleXor(all, 1u);
+    all |= subgroupShuffleXor(all, 2u);
+    return all | subgroupShuffleXor(all, 4u);
+}
 
 bool any_of_packet(bool mine) { return bits_of_packet(uint(mine)) != 0u; }
 vec3 of_packet(vec3 mine, uint k) { return subgroupShuffle(mine, k); }

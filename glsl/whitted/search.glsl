@@ -81,7 +81,7 @@
 // A kind's search shrinks the limit for the next.
 Found next_candidate(Beam beam, float limit, bool is_searching) {
     Found found = Found(NO_KEY, 0, NO_KEY, limit);
-    // Of one ray of a packet: what lies one behind the other is gone through that way.
+    // The direction of one ray of the packet, which decides the order for all.
     vec3 heading = of_packet(beam.direction, 0u);
     if (HAS_SPHERES) search_spheres(beam, heading, is_searching, found);
     if (HAS_BOXES) search_boxes(beam, heading, is_searching, found);

@@ -207,7 +207,7 @@ void trace(View view) {
         is_packet_at_rest = !any_of_packet(purpose != ENDED);
         if ((is_packet_at_rest && begun == PIXELS) || turns >= LOOP_TURNS) break;
     }
-    // The last one, which turns may have run out for, and with it those that have not been begun: black.
+    // The last pixel, unfinished if turns ran out; then those never begun: black.
     for (;;) {
         put(begun - 1u, path.color, turns < LOOP_TURNS);
         if (begun == PIXELS) break;

@@ -280,10 +280,10 @@ impl From<&Arc<StorageImage>> for Resource {
     }
 }
 
-/// A descriptor set: the resources of one pipeline, kept alive with it.
+/// A descriptor set: the resources of one pipeline and its siblings, kept alive with it.
 pub struct BindingSet {
     pub(super) set: vk::DescriptorSet,
-    /// Of the pipeline that it was made for.
+    /// Of the pipelines that it serves.
     pub(super) layout: Arc<Layout>,
     pub(super) uses: Vec<(Resource, Use)>,
     pool: vk::DescriptorPool,

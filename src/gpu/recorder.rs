@@ -141,9 +141,16 @@ impl<'h> Recorder<'h> {
     /// they must not touch the same data.
     ///
     /// # Panics
-    /// The set was made for another pipeline, or the push constants are not as long as the pipeline's.
+    /// The set was made for a pipeline that is no sibling, or the push constants are not as long as theirs.
     pub fn dispatch_parts(&mut self, set: &Arc<BindingSet>, push_constants: &[u8], parts: &[Dispatch]) {
         let Some(Dispatch { pipeline: first, .. }) = parts.first() else { return };
+        for Dispatch { pipeline, .. } in parts {
+            assert!(
+                Arc::ptr_eq(&set.layout, &pipeline.layout),
+                "the set was made for another kernel than '{}'",
+                pipeline.name
+            );
+        }
         assert_eq!(push_constants.len(), set.layout.push_constant_bytes as usize, "kernel '{}'", first.name);
         for (resource, as_) in &set.uses {
             self.note_use(resource, first.name, *as_);
@@ -160,11 +167,6 @@ impl<'h> Recorder<'h> {
         }
         let mut bound = vk::Pipeline::null();
         for &Dispatch { pipeline, first: [x, y, z], groups: [width, height, depth] } in parts {
-            assert!(
-                Arc::ptr_eq(&set.layout, &pipeline.layout),
-                "the set was made for another kernel than '{}'",
-                pipeline.name
-            );
             // SAFETY: the command buffer is being recorded; what is bound is of the pipeline's layout.
             unsafe {
                 if bound != pipeline.raw {

@@ -8,8 +8,8 @@ use glam::{DVec2, DVec3};
 use super::{Decision, Reason, Wishes};
 use crate::scene::{BoundingSphere, Camera, Light, Primitive, Projection, Scene};
 
-/// What kernels may be off in a direction or a place, relative to coordinates in their frame, whose origin is among the
-/// solids: of an `f32` of `u` = 6e-8, a hundredfold.
+/// What kernels may be off in a direction or a place, relative to distances between the camera, the light and the solids,
+/// among which their frame has its origin: of an `f32` of `u` = 6e-8, a hundredfold.
 const SURELY: f64 = 1e-5;
 
 /// How many may be seen.
@@ -36,7 +36,8 @@ fn farthest_solid(scene: &Scene) -> f64 {
     scene.primitives.iter().map(farthest).fold(0.0, f64::max)
 }
 
-/// A rectangle of a picture, by its width and height, from the top left corner; it may reach beyond the picture.
+/// A rectangle of a picture, in fractions of its width and height, from the top left corner; it may reach beyond the
+/// picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Area {
     low: DVec2,
@@ -64,8 +65,9 @@ impl Area {
             Projection::Course => ([-1.0, 3.0], [-3.0, 1.0]),
         };
         let to_light = light.position - position;
-        let coordinates = to_light.length() + light.position.length() + farthest;
-        let radius = Light::BALL_RADIUS + SURELY * coordinates;
+        // Coordinates of the world are differed in `f64`, each rounded once.
+        let rounding = 4.0 * f64::EPSILON * light.position.length().max(position.length());
+        let radius = Light::BALL_RADIUS + SURELY * (to_light.length() + farthest) + rounding;
         // From the picture's first edge, at a slope of `first` half extents, to the last one.
         let part = |across: DVec3, half_extent: f64, first: f64, last: f64| {
             let (least, greatest) = slopes(to_light.dot(across), to_light.dot(ahead), radius)?;

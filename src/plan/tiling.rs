@@ -13,16 +13,16 @@ pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decisi
     Decision { choice, reason }
 }
 
-/// Of so many solids, those that a ray of the accurate kernel tries: as a rule no more than a level of boxes alone is over.
-/// A pixel of `cloud-10000`, whose rays go far among solids of all kinds, takes a tenfold of that, and a tile there some 60 ms on
-/// two cores; those of a million spheres on a plane are as quick as of a hundred solids.
+/// Of so many solids, those that a ray of the accurate kernel tries: as a rule no more than one level of boxes can hold.
+/// Rays that go far among solids of all kinds, as in `cloud-10000`, take ten times that, and a tile there some 60 ms on two
+/// cores; those among a million spheres on a plane are as quick as among a hundred.
 pub fn tried_under_boxes(solids: usize) -> usize {
     solids.min(Structure::MOST_ALONE * Structure::GROUP)
 }
 
 /// Side of a tile, pixels: at most `max`, and so small that one submission makes no more than about 2²⁸ intersection
-/// tests, if that leaves it 64 pixels. At worst every ray goes through all generations, with a shadow ray a light each, and
-/// tries so many solids.
+/// tests, if that leaves it 64 pixels. Every ray is taken to go through all generations, with a shadow ray a light
+/// each, and to try so many solids.
 /// 2²⁸ tests take lavapipe on two cores a second or two: so long may Ctrl-C and the progress bar wait; on a small GPU
 /// they stay far below the seconds after which a driver takes it for hung.
 pub fn tile_side(max: u32, tried: usize, lights: usize, max_depth: u32) -> u32 {
@@ -35,7 +35,7 @@ pub fn tile_side(max: u32, tried: usize, lights: usize, max_depth: u32) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::tile_side;
+    use super::{tile_side, tried_under_boxes};
 
     #[test]
     fn heavy_scenes_take_small_tiles_and_light_ones_the_largest() {
@@ -44,5 +44,11 @@ mod tests {
         assert_eq!(tile_side(1024, 100, 1, 20), 256);
         assert_eq!(tile_side(1024, 100, 1, 1000), 64);
         assert_eq!(tile_side(7, 100, 1, 1000), 7);
+        assert_eq!(tile_side(1024, 128, 1, 20), 192, "whole workgroups of eight pixels in turn");
+    }
+
+    #[test]
+    fn under_boxes_many_solids_weigh_no_more_than_some() {
+        assert_eq!([0, 100, 128, 129, 1_000_000].map(tried_under_boxes), [0, 100, 128, 128, 128]);
     }
 }

@@ -37,7 +37,8 @@ impl Crowd {
             return Self { turns: None };
         }
         let count = |kind: SolidKind| primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count();
-        // A turn for each group of eight solids, or of eight boxes over them.
+        // A turn for each group of eight solids, or of eight boxes over them. One of cylinders or cones takes two or three,
+        // which the solids counted below more than make up for.
         let groups = |solids: usize| solids.div_ceil(Structure::GROUP - 1).div_ceil(2) as u64;
         let search: u64 = SolidKind::ALL.into_iter().map(|kind| groups(count(kind))).sum();
         // A box that is turned is tried by the upright box around it, which a ray may meet for nothing.
@@ -74,6 +75,7 @@ pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decisi
     if !limits.packets {
         return Decision { choice: 1, reason: Reason::NoPackets };
     }
+    // Of many solids the window takes one, since it traces nothing again.
     let choice = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), generations, MOST_PIXELS);
     Decision { choice, reason: if choice > 1 { Reason::PixelsInTurn } else { Reason::LongPixels } }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bytemuck::NoUninit;
 
 use super::TracerError;
-use super::chunks::Part;
+use super::parts::Part;
 use super::records::{FrameRecord, PrimitiveRecords};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, Dispatch, GpuError, PipelineDescription,

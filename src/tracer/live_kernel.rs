@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::chunks::Part;
 use super::course::{CourseKernel, CourseScene, WORKGROUP};
 use super::live_whitted::{LiveWhitted, WhittedState};
+use super::parts::Part;
 use super::records::PrimitiveRecords;
 use super::sampling::Sampling;
 use super::{Kernel, TracerError, Work};
@@ -110,7 +110,7 @@ impl LiveKernel {
             (Self::Whitted(live), State::Whitted(state)) => {
                 if let Some(pipeline) = live.pipeline() {
                     let parts = in_workgroups(parts, pipeline.pixels);
-                    pipeline.record(recorder, set, &state.scene.picture, sample, &parts);
+                    pipeline.record(recorder, set, &state.scene.shot, sample, &parts);
                 }
             }
             (Self::Course(_) | Self::Whitted(_), _) => {}

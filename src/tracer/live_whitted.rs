@@ -120,11 +120,14 @@ impl LiveWhitted {
             begun.dropped = last_arrays;
             scene.upload(&self.device)?
         };
-        let pipeline = match last_pipeline.filter(|pipeline| pipeline.serves(scene, WORKGROUP)) {
-            Some(pipeline) => pipeline,
-            None => {
+        let pipeline = match last_pipeline {
+            Some(last) if last.serves(scene, WORKGROUP) => last,
+            last => {
                 begun.needs_binding = true;
-                WhittedPipeline::new(&self.device, scene, WORKGROUP)?
+                match last {
+                    Some(last) => last.replaced(&self.device, scene, WORKGROUP)?,
+                    None => WhittedPipeline::new(&self.device, scene, WORKGROUP)?,
+                }
             }
         };
         let (records, primitives) = (scene.records.clone(), primitives.clone());

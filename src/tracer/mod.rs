@@ -9,6 +9,7 @@ mod kernel_frame;
 mod live_kernel;
 mod live_whitted;
 mod outlines;
+mod parts;
 mod pixels;
 pub mod probe;
 mod records;

@@ -1,23 +1,24 @@
 use std::sync::Arc;
 
-use super::chunks::Part;
 use super::course::{CourseKernel, CourseScene};
+use super::parts::Part;
 use super::pixels::pixel_buffer;
 use super::records::FrameRecord;
 use super::tiles::Tile;
-use super::whitted::{WhittedPicture, WhittedScene};
+use super::whitted::{WhittedScene, WhittedShot};
 use super::whitted_pipeline::WhittedPipeline;
 use super::whitted_records::WhittedFrame;
 use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, StorageImage, shaders};
+use crate::plan::{Crowd, MOST_PIXELS};
 use crate::scene::Scene;
 
 /// A kernel with the scene that it draws.
 pub(super) enum SceneKernel {
     /// The frame is of the whole picture.
     Course { kernel: CourseKernel, frame: Box<FrameRecord> },
-    /// The frame is of the whole picture.
-    Whitted { pipeline: WhittedPipeline, arrays: Vec<Resource>, picture: WhittedPicture },
+    /// The shot is of the whole picture.
+    Whitted { pipeline: WhittedPipeline, arrays: Vec<Resource>, shot: WhittedShot },
 }
 
 impl SceneKernel {
@@ -36,7 +37,7 @@ impl SceneKernel {
             Kernel::Plain | Kernel::Whitted(_) => {
                 let scene = whitted_scene(device, scene, settings, max_depth)?;
                 let pipeline = WhittedPipeline::new(device, &scene, workgroup)?;
-                Self::Whitted { pipeline, arrays: scene.upload(device)?, picture: scene.picture }
+                Self::Whitted { pipeline, arrays: scene.upload(device)?, shot: scene.shot }
             }
         })
     }
@@ -54,13 +55,13 @@ impl SceneKernel {
     ) -> Result<(), TracerError> {
         let &Settings { kernel, workgroup, .. } = settings;
         match self {
-            Self::Whitted { pipeline, arrays, picture } if kernel != Kernel::Course => {
+            Self::Whitted { pipeline, arrays, shot } if kernel != Kernel::Course => {
                 let scene = whitted_scene(device, scene, settings, max_depth)?;
                 let new_arrays = scene.upload(device)?;
                 if !pipeline.fits(&scene, workgroup) {
-                    *pipeline = WhittedPipeline::new(device, &scene, workgroup)?;
+                    *pipeline = pipeline.replaced(device, &scene, workgroup)?;
                 }
-                (*arrays, *picture) = (new_arrays, scene.picture);
+                (*arrays, *shot) = (new_arrays, scene.shot);
             }
             Self::Whitted { .. } | Self::Course { .. } => *self = Self::new(device, scene, settings, max_depth)?,
         }
@@ -112,8 +113,8 @@ impl SceneKernel {
 
     /// See [`Tracer::draw_remainder`](super::Tracer::draw_remainder).
     pub fn write_remainder(&mut self, remainder: bool) {
-        if let Self::Whitted { picture, .. } = self {
-            picture.frame.writes_remainder = u32::from(remainder);
+        if let Self::Whitted { shot, .. } = self {
+            shot.frame.writes_remainder = u32::from(remainder);
         }
     }
 
@@ -128,9 +129,9 @@ impl SceneKernel {
         let part = Part { first: [0, 0], groups: self.groups([width, height]) };
         match self {
             Self::Course { kernel, frame } => kernel.record(recorder, set, &frame.at_tile(x, y), &[part]),
-            Self::Whitted { pipeline, picture, .. } => {
-                let frame = WhittedFrame { tile_origin: x | y << 16, tile_size: width | height << 16, ..picture.frame };
-                pipeline.record(recorder, set, &WhittedPicture { frame, ..*picture }, sample, &[part]);
+            Self::Whitted { pipeline, shot, .. } => {
+                let frame = WhittedFrame { tile_origin: x | y << 16, tile_size: width | height << 16, ..shot.frame };
+                pipeline.record(recorder, set, &WhittedShot { frame, ..*shot }, sample, &[part]);
             }
         }
     }
@@ -144,7 +145,11 @@ fn whitted_scene(
 ) -> Result<WhittedScene, TracerError> {
     let &Settings { width, height, kernel, cuts, without_boxes, pixels, .. } = settings;
     let size = [width, height];
-    let scene = WhittedScene::new(device, scene, kernel, cuts, max_depth, size)?.sampled(settings.sampling(), size);
-    let scene = if without_boxes { scene.without_boxes() } else { scene };
-    Ok(if let Some(pixels) = pixels { scene.in_turn(pixels) } else { scene })
+    // Without boxes, a search among more solids than are looked at is long.
+    let unknown = if without_boxes { 1 } else { MOST_PIXELS };
+    let in_turn = || Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), max_depth, unknown);
+    let pixels = pixels.unwrap_or_else(in_turn);
+    let scene = WhittedScene::new(device, scene, kernel, cuts, max_depth, size)?;
+    let scene = scene.sampled(settings.sampling(), size).in_turn(pixels);
+    Ok(if without_boxes { scene.without_boxes() } else { scene })
 }

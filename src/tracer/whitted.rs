@@ -10,7 +10,7 @@ use super::sampling::Sampling;
 use super::whitted_records::{WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingKind, Buffer, BufferKind, Device, GpuError, Resource, Texel};
-use crate::plan::{Area, Crowd, Cuts, MOST_PIXELS, Precision};
+use crate::plan::{Area, Cuts, MOST_PIXELS, Precision};
 use crate::scene::Scene;
 
 impl Precision {
@@ -128,12 +128,36 @@ fn upload(device: &Arc<Device>, records: &WhittedRecords, precision: Precision) 
 /// The largest record: seven rows of four doubles.
 const EMPTY_ARRAY_BYTES: u64 = 7 * 32;
 
-/// What of a scene the camera sees.
+/// What a kernel is told of a picture, besides the scene's arrays.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) struct WhittedPicture {
+pub(super) struct WhittedShot {
     pub frame: WhittedFrame,
     /// Where balls of lights may be seen.
     pub balls: Option<Area>,
+}
+
+/// Where a picture shows balls of lights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Balls {
+    Nowhere,
+    Somewhere,
+    Everywhere,
+}
+
+impl WhittedShot {
+    pub fn where_balls_are(&self) -> Balls {
+        let [width, height] = unpacked(self.frame.image_size);
+        match self.balls.map(|area| area.pixels([width, height])) {
+            None => Balls::Nowhere,
+            Some(pixels) if pixels == [0..width, 0..height] => Balls::Everywhere,
+            Some(_) => Balls::Somewhere,
+        }
+    }
+}
+
+/// Two numbers below 2¹⁶.
+pub(super) fn unpacked(packed: u32) -> [u32; 2] {
+    [packed & 0xFFFF, packed >> 16]
 }
 
 /// A scene as the kernel takes it.
@@ -142,8 +166,8 @@ pub(super) struct WhittedScene {
     pub(super) kernel: Kernel,
     pub records: WhittedRecords,
     pub(super) requirements: Requirements,
-    /// The whole of it in one tile.
-    pub picture: WhittedPicture,
+    /// Of the whole picture in one tile.
+    pub shot: WhittedShot,
     /// Of each pixel.
     pub samples: u32,
     /// Linear RGB.
@@ -151,7 +175,7 @@ pub(super) struct WhittedScene {
 }
 
 impl WhittedScene {
-    /// For a picture of `width`×`height` pixels and `max_depth` generations at most.
+    /// For a picture of `width`×`height` pixels and `max_depth` generations at most, pixel by pixel.
     ///
     /// # Errors
     /// The device lacks the kernel's precision, or lets no kernel see so many primitives.
@@ -165,8 +189,7 @@ impl WhittedScene {
     ) -> Result<Self, TracerError> {
         check_precision(device, kernel.precision())?;
         let records = WhittedRecords::of(scene, KernelFrame::of(scene), kernel.precision(), size);
-        let pixels = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), max_depth, MOST_PIXELS);
-        Ok(Self::with(device, scene, records, kernel, cuts, max_depth, size)?.in_turn(pixels))
+        Self::with(device, scene, records, kernel, cuts, max_depth, size)
     }
 
     /// With the scene's records for a picture of that size, pixel by pixel.
@@ -201,18 +224,18 @@ impl WhittedScene {
         };
         let requirements = Requirements::of(&records, &cuts, max_depth);
         let background = scene.background.as_vec3().to_array();
-        // Twice what any coordinate may be from the frame's origin.
-        let farthest = 4.0 * f64::from(records.solids.frame.reach) / records.solids.frame.scale;
+        // No coordinate is larger than twice the reach: no two places are farther apart than 4 * sqrt(3) of that.
+        let farthest = 7.0 * f64::from(records.solids.frame.reach) / records.solids.frame.scale;
         let balls = Area::of_balls(scene, f64::from(width) / f64::from(height), farthest);
-        let picture = WhittedPicture { frame, balls: balls.filter(|_| cuts.balls) };
-        Ok(Self { kernel, records, requirements, picture, samples: 1, background })
+        let shot = WhittedShot { frame, balls: balls.filter(|_| cuts.balls) };
+        Ok(Self { kernel, records, requirements, shot, samples: 1, background })
     }
 
     /// Traced so for a picture of `size` pixels: what the window shows stays the same to the last bit.
     pub fn sampled(mut self, sampling: Sampling, size: [u32; 2]) -> Self {
         let [width, height] = sampling.traced_size(size);
-        self.picture.frame.image_size = width | height << 16;
-        self.picture.frame.tile_size = self.picture.frame.image_size;
+        self.shot.frame.image_size = width | height << 16;
+        self.shot.frame.tile_size = self.shot.frame.image_size;
         self.samples = sampling.samples;
         self.requirements.samples = sampling.samples > 1;
         self

@@ -4,9 +4,9 @@ use std::sync::Arc;
 use std::thread::available_parallelism;
 
 use super::Kernel;
-use super::chunks::{Part, Shares};
+use super::parts::{Grid, Part};
 use super::requirements::Requirements;
-use super::whitted::{WhittedPicture, WhittedScene, scene_bindings};
+use super::whitted::{Balls, WhittedScene, WhittedShot, scene_bindings, unpacked};
 use super::whitted_records::WhittedFrame;
 use crate::gpu::{
     BindingKind, BindingSet, ComputePipeline, Device, DeviceKind, Dispatch, GpuError, PipelineDescription, Recorder,
@@ -16,10 +16,11 @@ use crate::plan::{Area, Precision};
 
 /// The kernel, specialised for what a scene requires.
 pub(super) struct WhittedPipeline {
-    /// Does all that is required.
-    whole: Arc<ComputePipeline>,
-    /// For where no ball of a light may be seen.
+    /// For where balls of lights may be seen, and where none may; one and the same where a picture is only of either.
+    with_balls: Arc<ComputePipeline>,
     without_balls: Arc<ComputePipeline>,
+    /// In the pictures that they are for; `Somewhere` is for all.
+    balls: Balls,
     kernel: Kernel,
     requirements: Requirements,
     workgroup: [u32; 2],
@@ -39,13 +40,14 @@ fn threads(device: &Device) -> u32 {
 
 impl WhittedPipeline {
     pub fn new(device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
-        Self::made(device, scene.kernel, scene.requirements, workgroup)
+        Self::made(device, scene.kernel, scene.requirements, scene.shot.where_balls_are(), workgroup)
     }
 
     fn made(
         device: &Arc<Device>,
         kernel: Kernel,
         requirements: Requirements,
+        balls: Balls,
         workgroup: [u32; 2],
     ) -> Result<Self, GpuError> {
         let precision = kernel.precision();
@@ -64,22 +66,24 @@ impl WhittedPipeline {
         };
         let push_constant_bytes = size_of::<WhittedFrame>() as u32;
         let own = Requirements { pixels, ..requirements };
-        let constants = own.constants(device, precision, workgroup)?;
+        let with_balls = own.constants(device, precision, workgroup)?;
+        let without_balls = Requirements { balls: 0, ..own }.constants(device, precision, workgroup)?;
         let description =
-            PipelineDescription { shader, bindings: &bindings, push_constant_bytes, constants: &constants };
-        let whole = ComputePipeline::new(device, &description)?;
-        let without_balls = if own.balls > 0 {
-            let constants = Requirements { balls: 0, ..own }.constants(device, precision, workgroup)?;
-            whole.sibling(&PipelineDescription { constants: &constants, ..description })?
-        } else {
-            whole.clone()
+            |constants| PipelineDescription { shader, bindings: &bindings, push_constant_bytes, constants };
+        let first = if balls == Balls::Nowhere { &without_balls } else { &with_balls };
+        let with_balls = ComputePipeline::new(device, &description(first))?;
+        let without_balls = match balls {
+            Balls::Somewhere => with_balls.sibling(&description(&without_balls))?,
+            Balls::Nowhere | Balls::Everywhere => with_balls.clone(),
         };
-        Ok(Self { whole, without_balls, kernel, requirements, workgroup, pixels, threads: threads(device) })
+        let threads = threads(device);
+        Ok(Self { with_balls, without_balls, balls, kernel, requirements, workgroup, pixels, threads })
     }
 
     /// The same for pixels that are traced each by itself.
     pub fn one_by_one(&self, device: &Arc<Device>) -> Result<Self, GpuError> {
-        Self::made(device, self.kernel, Requirements { pixels: 1, ..self.requirements }, self.workgroup)
+        let requirements = Requirements { pixels: 1, ..self.requirements };
+        Self::made(device, self.kernel, requirements, self.balls, self.workgroup)
     }
 
     /// Whether it draws that scene too, as one made for it would.
@@ -89,16 +93,31 @@ impl WhittedPipeline {
 
     /// Whether it draws that scene too, if perhaps by fewer pixels in turn.
     pub fn serves(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
+        self.pixels_are_served(scene, workgroup) && self.balls_are_served(scene)
+    }
+
+    fn pixels_are_served(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
         let pixels = self.requirements.pixels;
         let own = (self.kernel, self.requirements, self.workgroup);
         pixels <= scene.requirements.pixels
             && own == (scene.kernel, Requirements { pixels, ..scene.requirements }, workgroup)
     }
 
+    fn balls_are_served(&self, scene: &WhittedScene) -> bool {
+        [Balls::Somewhere, scene.shot.where_balls_are()].contains(&self.balls)
+    }
+
+    /// In its place, for a scene that it does not fit. Where balls come in sight and go out of it, that is once for all.
+    pub fn replaced(&self, device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
+        let is_seen_otherwise = self.pixels_are_served(scene, workgroup) && !self.balls_are_served(scene);
+        let balls = if is_seen_otherwise { Balls::Somewhere } else { scene.shot.where_balls_are() };
+        Self::made(device, scene.kernel, scene.requirements, balls, workgroup)
+    }
+
     /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.
     pub fn bind(&self, picture: &Resource, arrays: &[Resource]) -> Result<Arc<BindingSet>, GpuError> {
         let resources: Vec<_> = [picture].into_iter().chain(arrays).cloned().collect();
-        BindingSet::new(&self.whole, &resources)
+        BindingSet::new(&self.with_balls, &resources)
     }
 
     /// Traces these parts of the picture: the sample with this index of each pixel, the ones before being there.
@@ -106,29 +125,26 @@ impl WhittedPipeline {
         &self,
         recorder: &mut Recorder,
         set: &Arc<BindingSet>,
-        picture: &WhittedPicture,
+        shot: &WhittedShot,
         sample: u32,
         parts: &[Part],
     ) {
-        let WhittedPicture { frame, balls } = picture;
+        let WhittedShot { frame, balls } = shot;
         let balls = balls.map(|area| self.part_of(area, frame));
         let cut = |part: &Part| balls.map_or_else(|| (None, vec![*part]), |area| part.cut(area));
-        let mut dispatches = Vec::new();
-        let mut dispatch = |part: Part, pipeline| {
-            let shares = part.shares(self.threads).into_iter();
-            dispatches.extend(shares.map(|Shares { first, groups }| Dispatch { pipeline, first, groups }));
+        let (with_balls, others): (Vec<_>, Vec<_>) = parts.iter().map(cut).unzip();
+        let with_balls = with_balls.into_iter().flatten().map(|part| (part, &self.with_balls));
+        let others = others.into_iter().flatten().map(|part| (part, &self.without_balls));
+        let dispatches = |(part, pipeline): (Part, _)| {
+            let grids = part.shares(self.threads).into_iter();
+            grids.map(move |Grid { first, groups }| Dispatch { pipeline, first, groups })
         };
-        for part in parts {
-            let (with_balls, others) = cut(part);
-            with_balls.into_iter().for_each(|part| dispatch(part, &self.whole));
-            others.into_iter().for_each(|part| dispatch(part, &self.without_balls));
-        }
+        let dispatches: Vec<_> = with_balls.chain(others).flat_map(dispatches).collect();
         recorder.dispatch_parts(set, bytemuck::bytes_of(&frame.at_sample(sample)), &dispatches);
     }
 
     /// The workgroups of a tile that an area of the picture touches, and perhaps some beyond it.
     fn part_of(&self, area: Area, frame: &WhittedFrame) -> Part {
-        let unpacked = |packed: u32| [packed & 0xFFFF, packed >> 16];
         let pixels = area.pixels(unpacked(frame.image_size));
         let tile = unpacked(frame.tile_origin);
         let group = [self.workgroup[0], self.workgroup[1] * self.pixels];

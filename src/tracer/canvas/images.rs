@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::super::chunks::Part;
 use super::super::enlarge::Enlarger;
 use super::super::live_kernel::BLOCK;
+use super::super::parts::Part;
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, StorageImage, Use};
 
 pub struct Image {
