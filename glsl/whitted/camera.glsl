@@ -2,7 +2,6 @@
 
 // An invocation traces so many pixels, one after another: PIXELS workgroups lie below each other in one.
 layout(constant_id = 19) const uint PIXELS = 1u;
-const uint MOST_PIXELS = 8u;
 
 // A pixel's colour is the mean of several samples, each added by a run of its own; see src/tracer/sampling.rs.
 layout(constant_id = 18) const bool HAS_SAMPLES = false;

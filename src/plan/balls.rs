@@ -6,7 +6,7 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 
 use super::{Decision, Reason, Wishes};
-use crate::scene::{BoundingSphere, Camera, Light, Primitive, Projection, Scene};
+use crate::scene::{Camera, Light, Projection, Scene, farthest_coordinate};
 
 /// What kernels may be off in a direction or a place, relative to distances between the camera, the light and the solids,
 /// among which their frame has its origin: of an `f32` of `u` = 6e-8, a hundredfold.
@@ -16,7 +16,8 @@ const SURELY: f64 = 1e-5;
 pub(super) fn decide(scene: &Scene, wishes: &Wishes) -> Decision<usize> {
     let lights = scene.lights.len();
     let aspect = f64::from(wishes.width) / f64::from(wishes.height);
-    let farthest = farthest_solid(scene);
+    // No distance is larger than its largest coordinate by more than the square root of three.
+    let farthest = 2.0 * farthest_coordinate(&scene.primitives, scene.camera.position);
     let seen = |light: &&Light| Area::of_ball(light, &scene.camera, aspect, farthest).is_some();
     let choice = scene.lights.iter().filter(seen).count();
     let reason = match (lights, choice) {
@@ -25,15 +26,6 @@ pub(super) fn decide(scene: &Scene, wishes: &Wishes) -> Decision<usize> {
         (lights, seen) => Reason::BallsInSight { lights, seen },
     };
     Decision { choice, reason }
-}
-
-/// From the camera.
-fn farthest_solid(scene: &Scene) -> f64 {
-    let farthest = |primitive: &Primitive| {
-        let sphere = BoundingSphere::of(&primitive.solid);
-        sphere.center.distance(scene.camera.position) + sphere.radius
-    };
-    scene.primitives.iter().map(farthest).fold(0.0, f64::max)
 }
 
 /// A rectangle of a picture, in fractions of its width and height, from the top left corner; it may reach beyond the

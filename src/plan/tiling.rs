@@ -1,6 +1,6 @@
 //! How much of a picture one submission traces.
 
-use super::{Decision, Limits, Reason, Structure};
+use super::{Decision, Limits, MOST_PIXELS, Reason, Structure, WORKGROUP};
 use crate::scene::Scene;
 
 /// Pixels: larger tiles save nothing more.
@@ -30,7 +30,8 @@ pub fn tile_side(max: u32, tried: usize, lights: usize, max_depth: u32) -> u32 {
     let tests_per_pixel = u64::from(max_depth) * (1 + lights as u64) * (tried as u64 + 1);
     let side = (TESTS / tests_per_pixel).isqrt() as u32;
     // A multiple of what a workgroup traces, side by side and in turn, leaves no invocations idle at the tile's edge.
-    max.min((side / 64 * 64).max(64))
+    const TRACED: u32 = WORKGROUP[1] * MOST_PIXELS;
+    max.min((side / TRACED * TRACED).max(TRACED))
 }
 
 #[cfg(test)]

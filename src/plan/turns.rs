@@ -37,8 +37,8 @@ impl Crowd {
             return Self { turns: None };
         }
         let count = |kind: SolidKind| primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count();
-        // A turn for each group of eight solids, or of eight boxes over them. One of cylinders or cones takes two or three:
-        // that is left to the margin of what follows.
+        // A turn for each group of eight solids, or of eight boxes over them. That one of cylinders or cones may take two or
+        // three is not counted.
         let groups = |solids: usize| solids.div_ceil(Structure::GROUP - 1).div_ceil(2) as u64;
         let search: u64 = SolidKind::ALL.into_iter().map(|kind| groups(count(kind))).sum();
         // A box that is turned is tried by the upright box around it, which a ray may meet for nothing.

@@ -1,6 +1,7 @@
 use glam::DVec3;
+use rayon::prelude::*;
 
-use super::Solid;
+use super::{Primitive, Solid};
 
 /// A sphere around a solid, world frame.
 pub struct BoundingSphere {
@@ -30,4 +31,13 @@ impl BoundingSphere {
 fn half_length(a: DVec3, b: DVec3) -> f64 {
     // Halved first: the difference of two numbers near the largest must not overflow.
     (b * 0.5 - a * 0.5).length()
+}
+
+/// The largest coordinate of a solid, seen from a place; world lengths.
+pub fn farthest_coordinate(primitives: &[Primitive], origin: DVec3) -> f64 {
+    let farthest = |primitive: &Primitive| {
+        let sphere = BoundingSphere::of(&primitive.solid);
+        (sphere.center - origin).abs().max_element() + sphere.radius
+    };
+    primitives.par_iter().map(farthest).reduce(|| 0.0, f64::max)
 }

@@ -15,7 +15,7 @@ mod primitive;
 mod text;
 mod validate;
 
-pub use bounding_sphere::BoundingSphere;
+pub use bounding_sphere::{BoundingSphere, farthest_coordinate};
 pub use camera::{Camera, Projection};
 pub use edit::{COURSE_PRIMITIVE_LIMIT, TooManyPrimitives, world_from_box};
 pub use error::SceneError;

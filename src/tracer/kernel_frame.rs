@@ -2,9 +2,8 @@
 //! leaves their records as they are.
 
 use glam::DVec3;
-use rayon::prelude::*;
 
-use crate::scene::{BoundingSphere, Primitive, Scene};
+use crate::scene::{BoundingSphere, Primitive, Scene, farthest_coordinate};
 
 /// From the world frame to the kernel's: (world − origin)·scale, rounded once where `scale` is a power of two.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,7 +79,7 @@ impl Extent {
             if rounded.is_finite() { rounded } else { coordinate }
         };
         let origin = middle.map(whole_steps);
-        Self { origin, farthest: farthest(primitives, origin) }
+        Self { origin, farthest: farthest_coordinate(primitives, origin) }
     }
 
     /// The farthest coordinate of a solid or of the camera is brought below 2 by a power of two: squares stay far from the
@@ -96,15 +95,6 @@ impl Extent {
 /// From 2⁻¹⁰²² to 2¹⁰²²: it and its reciprocal are normal numbers.
 fn power_of_two_below(number: f64) -> f64 {
     number.log2().floor().clamp(-1022.0, 1022.0).exp2()
-}
-
-/// The largest coordinate of a solid, seen from a place; world lengths.
-pub(super) fn farthest(primitives: &[Primitive], origin: DVec3) -> f64 {
-    let farthest = |primitive: &Primitive| {
-        let reach = BoundingSphere::of(&primitive.solid);
-        (reach.center - origin).abs().max_element() + reach.radius
-    };
-    primitives.par_iter().map(farthest).reduce(|| 0.0, f64::max)
 }
 
 /// Of pairs of a number and its weight; 0 of none.

@@ -122,13 +122,11 @@ impl LiveWhitted {
         };
         let pipeline = match last_pipeline {
             Some(last) if last.serves(scene, WORKGROUP) => last,
-            last => {
+            Some(last) => {
                 begun.needs_binding = true;
-                match last {
-                    Some(last) => last.replaced(&self.device, scene, WORKGROUP)?,
-                    None => WhittedPipeline::new(&self.device, scene, WORKGROUP)?,
-                }
+                last.replaced(&self.device, scene, WORKGROUP)?
             }
+            None => WhittedPipeline::new(&self.device, scene, WORKGROUP)?,
         };
         let (records, primitives) = (scene.records.clone(), primitives.clone());
         self.begun = Some(OnDevice { pipeline, arrays, records, primitives });

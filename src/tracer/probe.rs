@@ -6,7 +6,7 @@ use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
 
 use super::course::upload;
-use super::kernel_frame::{KernelFrame, farthest};
+use super::kernel_frame::KernelFrame;
 use super::records::{FrameRecord, PrimitiveRecords};
 use super::requirements::Requirements;
 use super::whitted::{scene_bindings, upload_scene};
@@ -18,7 +18,7 @@ use crate::gpu::{
 };
 use crate::plan::Precision;
 use crate::reference::{Face, Side};
-use crate::scene::{Light, Primitive, Scene, Solid};
+use crate::scene::{Light, Primitive, Scene, Solid, farthest_coordinate};
 
 /// What is known of a probed ray's origin. The course kernel knows nothing of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -129,7 +129,7 @@ impl Probe {
         let precision = self.kernel.precision();
         let farthest_origin = rays.iter().map(|ray| ray.origin.abs().max_element()).fold(0.0, f64::max);
         let scene = scene_of(solids);
-        let reach = (farthest(&scene.primitives, DVec3::ZERO).max(farthest_origin) / 2.0) as f32;
+        let reach = (farthest_coordinate(&scene.primitives, DVec3::ZERO).max(farthest_origin) / 2.0) as f32;
         let kernel_frame = KernelFrame::world(reach.next_up());
         let records = WhittedRecords::of(&scene, kernel_frame, precision, [1, 1]);
         assert_eq!(

@@ -33,7 +33,7 @@ pub struct Settings {
     pub height: u32,
     /// In place of the scene's.
     pub max_depth: Option<u32>,
-    /// Largest side of what one submission traces, pixels; heavy scenes take smaller tiles, see [`tile_side`].
+    /// Largest side of what one submission traces, pixels; heavy scenes take smaller tiles, see [`tile_side`](crate::plan::tile_side).
     pub max_tile_side: u32,
     /// Pixels of a workgroup along x and y.
     pub workgroup: [u32; 2],
@@ -46,7 +46,7 @@ pub struct Settings {
     /// That an invocation of the accurate kernel traces in turn, where invocations come in packets: 1 to 8, in place
     /// of what [suits the scene](crate::plan::Crowd::pixels_in_turn). What that may not change is tested with it.
     pub pixels: Option<u32>,
-    /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See [`sampling`].
+    /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See [`sampling`](super::sampling).
     pub samples: u32,
     /// Size of the picture that is traced against the one asked for, to which it is brought by bilinear interpolation;
     /// 1/4 to 1. The course kernel takes 1.
@@ -93,7 +93,7 @@ impl Settings {
     }
 }
 
-/// What a [`Canvas`] traces of any scene.
+/// What a [`Canvas`](super::Canvas) traces of any scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Work {
     /// See [`Settings`], as of the others.

@@ -163,9 +163,9 @@ pub(super) fn unpacked(packed: u32) -> [u32; 2] {
 /// A scene as the kernel takes it.
 #[derive(PartialEq)]
 pub(super) struct WhittedScene {
-    pub(super) kernel: Kernel,
+    pub kernel: Kernel,
     pub records: WhittedRecords,
-    pub(super) requirements: Requirements,
+    pub requirements: Requirements,
     /// Of the whole picture in one tile.
     pub shot: WhittedShot,
     /// Of each pixel.
