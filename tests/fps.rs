@@ -175,7 +175,10 @@ fn an_interrupt_keeps_every_finished_cell_and_the_table_is_gone_on_with() {
     let Run { code, stdout, stderr } = interrupted(program);
     assert_eq!(code, Some(130), "{stderr}");
     let last = stderr.lines().last().unwrap();
-    assert!(last.contains("stopped") && last.contains("--resume \"out/fps.json\" -o \"out\" --validate"), "{stderr}");
+    assert!(
+        last.contains("stopped") && last.contains("--resume \"out/fps.json\" -o \"out\" --validate=core"),
+        "{stderr}"
+    );
     assert!(stdout.contains("- not complete: "), "{stdout}");
     assert_eq!(names_in(&place.path("out")).len(), 5, "every form of what there is, and nothing else");
 

@@ -1,4 +1,4 @@
-//! Nothing that the program draws makes the validation layers speak: core, synchronization and GPU-assisted checks.
+//! Nothing that the program draws makes the validation layers speak: each kind of its checks.
 
 mod common;
 
@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use common::{TestDevice, render};
 use zerkalo::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, PIXEL_BYTES, PipelineDescription, Resource,
-    StorageImage, Use, Validation, shaders,
+    BindingKind, BindingSet, Buffer, BufferKind, Check, Commands, ComputePipeline, PIXEL_BYTES, PipelineDescription,
+    Resource, StorageImage, Use, Validation, shaders, try_checks,
 };
 use zerkalo::scene::gallery;
 use zerkalo::tracer::{Kernel, Precision, Settings};
@@ -31,7 +31,7 @@ fn every_gallery_scene_is_drawn_without_a_message() {
 /// Samples read the picture that the ones before them wrote, and enlarging reads what all of them did.
 #[test]
 fn samples_and_a_smaller_picture_are_drawn_without_a_message() {
-    let device = TestDevice::open_with(Validation::GpuAssisted);
+    let device = TestDevice::open();
     let scene = gallery::scene("four").unwrap();
     for precision in [Precision::F32, Precision::F64] {
         for (samples, scale) in [(3, 1.0), (1, 0.3), (2, 0.5)] {
@@ -43,18 +43,40 @@ fn samples_and_a_smaller_picture_are_drawn_without_a_message() {
 }
 
 #[test]
-fn render_with_validate_counts_no_message_and_succeeds() {
+fn render_under_every_kind_of_validation_counts_no_message_and_succeeds() {
     let folder = tempfile::tempdir().unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_zerkalo"))
-        .args(["render", "corridor", "-o", "corridor.png", "--size", "96x42", "--validate", "--json"])
-        .current_dir(&folder)
-        .output()
-        .unwrap();
-    let stderr = String::from_utf8(output.stderr).unwrap();
-    assert_eq!((output.status.code(), stderr.as_str()), (Some(0), ""));
-    let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
-    assert_eq!(report["validation_messages"], 0);
-    assert!(folder.path().join("corridor.png").exists());
+    for option in ["", "=core", "=gpu-assisted", "=best-practices", "=all"] {
+        let option = format!("--validate{option}");
+        let arguments = ["render", "corridor", "-o", "corridor.png", "--size", "96x42", "--kernel", "course", "--json"];
+        let output = Command::new(env!("CARGO_BIN_EXE_zerkalo"))
+            .args(arguments)
+            .arg(&option)
+            .current_dir(&folder)
+            .output()
+            .unwrap();
+        let stderr = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{option}: {stderr}");
+        let report: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(report["validation_messages"], 0, "{option}");
+        // What the layer says of itself is told with its reason, on standard error and in the report.
+        let remarks = report["validation_remarks"].as_array().unwrap();
+        assert_eq!(remarks.len(), stderr.lines().count(), "{stderr}");
+        assert!(stderr.lines().all(|line| line.starts_with("no fault: ")), "{stderr}");
+        assert_eq!(!remarks.is_empty(), ["--validate=best-practices", "--validate=all"].contains(&option.as_str()));
+        assert!(folder.path().join("corridor.png").exists());
+    }
+}
+
+/// Silence means something only where mistakes are told.
+#[test]
+fn every_kind_of_validation_tells_the_mistakes_that_it_is_for() {
+    let wanted = std::env::var("ZERKALO_DEVICE").ok();
+    for validation in [Validation::Core, Validation::GpuAssisted, Validation::BestPractices, Validation::All] {
+        let tried = try_checks(wanted.as_deref(), validation).unwrap();
+        assert_eq!(tried.iter().map(|(check, _)| *check).collect::<Vec<_>>(), Check::of(validation));
+        let silent: Vec<_> = tried.iter().filter(|(_, works)| !works).collect();
+        assert!(silent.is_empty(), "{validation:?}: {silent:?}");
+    }
 }
 
 /// The silence above means something: the GPU-assisted checks are on.

@@ -81,7 +81,7 @@ fn parse_count(text: &str) -> Result<usize, String> {
 pub fn run(args: &FpsArgs) -> Result<()> {
     let begun = args.resume.as_deref().map(FpsTable::load).transpose()?;
     let plan = plan(args, begun.as_ref().map(|table| &table.plan));
-    let validation = if args.measuring.validate { Validation::GpuAssisted } else { Validation::Off };
+    let validation = args.measuring.validation.validation();
     let mut display = args.in_window.then(|| Display::open(WITHOUT_WINDOW)).transpose()?;
     let Scaffold { mut stage, machine, messages } = match &mut display {
         Some(display) => in_window(display, args, &plan, validation)?,
@@ -108,7 +108,7 @@ pub fn run(args: &FpsArgs) -> Result<()> {
     if !is_complete {
         return Err(stopped(&table, args, &outputs).into());
     }
-    refuse_messages(&messages.to_vec())
+    refuse_messages(&messages)
 }
 
 /// Where the frames are drawn, by what, and what validation says of it.
@@ -184,7 +184,7 @@ pub(super) fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
         kernels: kernels.unwrap_or(base.kernels),
         counts,
         budget: time.map_or(base.budget, Budget::lasting),
-        validation: args.measuring.validate,
+        validation: args.measuring.validation.is_on(),
         in_window: args.in_window,
     }
 }
@@ -245,7 +245,7 @@ fn stopped(table: &FpsTable, args: &FpsArgs, outputs: &[PathBuf]) -> Stopped {
     let advice = match json {
         Some(json) => {
             let more = args.output.iter().filter(|path| *path != json).map(|path| format!(" -o {path:?}"));
-            let validate = if args.measuring.validate { " --validate" } else { "" };
+            let validate = args.measuring.validation.option();
             let in_window = if args.in_window { " --in-window" } else { "" };
             format!("to go on: zerkalo fps --resume {json:?}{}{validate}{in_window}", more.collect::<String>())
         }

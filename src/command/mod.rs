@@ -15,17 +15,18 @@ pub mod validate;
 pub mod view;
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
+use std::thread;
 use std::time::Duration;
 
 use anyhow::Context;
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use crate::frame::FrameError;
-use crate::gpu::{GpuError, Message};
+use crate::gpu::{GpuError, Message, Messages, Validation};
 use crate::measure::fps_table::FpsTableError;
 use crate::measure::output::{OutputError, ReportFormat, check_output_path};
 use crate::plan::PlanError;
@@ -77,6 +78,54 @@ pub struct DeviceArgs {
     pub device: Option<String>,
 }
 
+/// What Vulkan's validation layer checks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Checks {
+    /// Calls against the specification, and synchronization
+    Core,
+    /// Accesses of kernels beyond what is bound; kernels compile ten times as long
+    GpuAssisted,
+    /// What is allowed and unwise
+    BestPractices,
+    All,
+}
+
+impl Checks {
+    fn validation(self) -> Validation {
+        match self {
+            Self::Core => Validation::Core,
+            Self::GpuAssisted => Validation::GpuAssisted,
+            Self::BestPractices => Validation::BestPractices,
+            Self::All => Validation::All,
+        }
+    }
+}
+
+/// Whether to run under validation.
+#[derive(Debug, Clone, Copy, Default, Args)]
+pub struct ValidationArgs {
+    /// Run under Vulkan's validation layer, by core and synchronization checks or by those that are named; any message
+    /// about what the program does is a failure
+    #[arg(long, value_enum, value_name = "CHECKS", num_args = 0..=1, require_equals = true, default_missing_value = "core")]
+    pub validate: Option<Checks>,
+}
+
+impl ValidationArgs {
+    fn validation(self) -> Validation {
+        self.validate.map_or(Validation::Off, Checks::validation)
+    }
+
+    fn is_on(self) -> bool {
+        self.validate.is_some()
+    }
+
+    /// As it is to be written after other options.
+    fn option(self) -> String {
+        let name = self.validate.and_then(|checks| checks.to_possible_value());
+        name.map_or_else(String::new, |name| format!(" --validate={}", name.get_name()))
+    }
+}
+
 /// What commands that measure have in common.
 #[derive(Debug, Clone, Args)]
 pub struct MeasuringArgs {
@@ -85,9 +134,8 @@ pub struct MeasuringArgs {
     pub json: bool,
     #[command(flatten)]
     pub device: DeviceArgs,
-    /// Run under core, synchronization and GPU-assisted validation, which takes its time; any message is a failure
-    #[arg(long)]
-    pub validate: bool,
+    #[command(flatten)]
+    pub validation: ValidationArgs,
 }
 
 /// The validation layers had something to say.
@@ -131,18 +179,46 @@ fn parse_seconds(text: &str) -> Result<Duration, String> {
     seconds.map(Duration::from_secs_f64).ok_or("it must be a number of seconds, 0.001 to 3600".to_owned())
 }
 
-/// Tells what validation had to say; a failure if it said anything.
-fn refuse_messages(messages: &[Message]) -> anyhow::Result<()> {
-    for message in messages {
-        eprintln!("{}: {}", message.id, message.text);
+/// Tells what validation had to say; a failure if it said anything about what the program does.
+fn refuse_messages(messages: &Messages) -> anyhow::Result<()> {
+    for (remark, count) in messages.remarks() {
+        eprintln!("no fault: {count} of {remark}");
+    }
+    let messages = messages.to_vec();
+    for Message { severity, id, text } in &messages {
+        eprintln!("{id} ({}): {text}", severity.name());
     }
     if messages.is_empty() { Ok(()) } else { Err(ValidationFailed { count: messages.len() }.into()) }
 }
 
-/// Drawn on a terminal only.
+/// Between lines about progress where there is no terminal.
+const LINES_APART: Duration = Duration::from_secs(30);
+
+/// A bar on a terminal, else a line to standard error now and then, until it is finished or dropped.
 fn progress_bar(steps: u64) -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (about {eta} left) {msg}");
-    ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()))
+    let bar = ProgressBar::new(steps).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+    if !io::stderr().is_terminal() {
+        let bar = bar.downgrade();
+        thread::spawn(move || {
+            loop {
+                thread::sleep(LINES_APART);
+                match bar.upgrade() {
+                    Some(bar) if !bar.is_finished() => eprintln!("{}", progress_line(&bar)),
+                    _ => break,
+                }
+            }
+        });
+    }
+    bar
+}
+
+fn progress_line(bar: &ProgressBar) -> String {
+    let all = bar.length().filter(|all| *all > 0);
+    let share = all.map_or(0.0, |all| bar.position() as f64 / all as f64);
+    format!("progress: {:.0}% after {} s {}", 100.0 * share, bar.elapsed().as_secs(), bar.message())
+        .trim_end()
+        .to_owned()
 }
 
 /// Printing that reports a closed pipe or a full disk instead of panicking.

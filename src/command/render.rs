@@ -6,20 +6,20 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::builder::RangedI64ValueParser;
 use clap::{Args, ValueEnum};
-use indicatif::{ProgressBar, ProgressStyle};
 use serde::Serialize;
 
 use super::interrupt::Listener;
 use super::plan::parse_error;
-use super::{DeviceArgs, print_json, refuse_messages, scene_named};
+use super::{DeviceArgs, ValidationArgs, print_json, progress_bar, refuse_messages, scene_named};
 use crate::frame::Frame;
-use crate::gpu::{Device, DeviceDescription, Message, Validation};
+use crate::gpu::{Device, DeviceDescription, Messages};
 use crate::measure::median;
 use crate::reference::{self, RenderError};
 use crate::scene::{DEPTH_LIMIT, Scene};
 use crate::setting::{self, Contradiction, Drawing, Setting};
 use crate::tracer::sampling::{MAX_SAMPLES, Sampling};
 use crate::tracer::{self, Tracer, TracerError, limits_of};
+use crate::validation::Remarked;
 
 /// Which of the program's tracers draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
@@ -84,9 +84,8 @@ pub struct RenderArgs {
     /// Render once to warm up, then N times, and report the median GPU time
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub repeat: Option<u32>,
-    /// Run under core, synchronization and GPU-assisted validation; any message is a failure
-    #[arg(long)]
-    pub validate: bool,
+    #[command(flatten)]
+    pub validation: ValidationArgs,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -167,6 +166,8 @@ struct Report<'a> {
     /// GPU time of each repeat, in order; without `--repeat` of the one, cold, render.
     samples_ns: &'a [u64],
     validation_messages: usize,
+    /// What the layer said that is no fault.
+    validation_remarks: Vec<Remarked>,
 }
 
 /// A picture, what drew it, and what is to be told of that.
@@ -179,7 +180,7 @@ struct Rendered {
     device: String,
     driver: String,
     samples_ns: Vec<u64>,
-    messages: Vec<Message>,
+    messages: Messages,
 }
 
 /// Renders, saves, reports. Fails after saving when validation had anything to say.
@@ -233,10 +234,9 @@ fn setting(args: &RenderArgs) -> Result<Option<Setting>> {
 }
 
 fn on_device(args: &RenderArgs, scene: &Scene, setting: &Setting) -> Result<Rendered> {
-    let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
     // From before the driver's threads compile anything until they are gone: a program that ends in their midst may crash.
     let listener = Listener::start();
-    let device = Device::open(args.device.device.as_deref(), validation)?;
+    let device = Device::open(args.device.device.as_deref(), args.validation.validation())?;
     let DeviceDescription { name, driver, .. } = device.description().clone();
     let messages = device.messages().clone();
 
@@ -252,12 +252,11 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &Setting) -> Result<Rend
     let precision = Precision::of_library(settings.kernel.precision());
     let kernel = Kernel::of(setting.kernel);
     let sampling = Sampling { samples: settings.samples, scale: settings.scale };
-    let messages = messages.to_vec();
     Ok(Rendered { frame, kernel, precision, sampling, error_bound, device: name, driver, samples_ns, messages })
 }
 
 fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
-    for (option, is_given) in [("--repeat", args.repeat.is_some()), ("--validate", args.validate)] {
+    for (option, is_given) in [("--repeat", args.repeat.is_some()), ("--validate", args.validation.is_on())] {
         if is_given {
             return Err(TracerError::Refused(format!("{option} is for kernels on a Vulkan device")).into());
         }
@@ -287,7 +286,7 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
         device: "CPU".to_owned(),
         driver,
         samples_ns: Vec::new(),
-        messages: Vec::new(),
+        messages: Messages::default(),
     })
 }
 
@@ -313,14 +312,6 @@ fn render(tracer: &mut Tracer, repeat: Option<u32>, listener: &Listener) -> Resu
     Ok((frame, samples_ns))
 }
 
-/// Drawn on a terminal only.
-fn progress_bar(pixels: u64) -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:40} {percent}% {elapsed} (about {eta} left)");
-    let bar = ProgressBar::new(pixels).with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
-    bar.tick();
-    bar
-}
-
 fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
     let Rendered { kernel, precision, sampling, error_bound, device, driver, samples_ns, messages, .. } = rendered;
     let Sampling { samples, scale } = *sampling;
@@ -339,7 +330,8 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
             driver,
             gpu_time_ns,
             samples_ns,
-            validation_messages: messages.len(),
+            validation_messages: messages.count(),
+            validation_remarks: messages.remarks().into_iter().map(Remarked::of).collect(),
         });
     }
     let time = gpu_time_ns.map_or("no GPU time".to_owned(), |time| format!("{:.2} ms GPU time", time as f64 / 1e6));

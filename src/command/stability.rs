@@ -10,9 +10,9 @@ use serde::Serialize;
 
 use super::interrupt::Listener;
 use super::render::Precision;
-use super::{DeviceArgs, print_json, print_line, progress_bar, refuse_messages};
+use super::{DeviceArgs, ValidationArgs, print_json, print_line, progress_bar, refuse_messages};
 use crate::frame::Frame;
-use crate::gpu::{Device, DeviceDescription, Validation};
+use crate::gpu::{Device, DeviceDescription};
 use crate::measure::stability::{Passed, Row, Summary, error_sheet, short, try_all};
 use crate::tracer::{self, TracerError};
 
@@ -49,9 +49,8 @@ pub struct StabilityArgs {
     pub output: Option<PathBuf>,
     #[command(flatten)]
     pub device: DeviceArgs,
-    /// Run under core, synchronization and GPU-assisted validation; any message is a failure
-    #[arg(long)]
-    pub validate: bool,
+    #[command(flatten)]
+    pub validation: ValidationArgs,
 }
 
 #[derive(Debug, Serialize)]
@@ -73,11 +72,10 @@ pub struct CasesFailed {
 }
 
 pub fn run(args: &StabilityArgs) -> Result<()> {
-    let validation = if args.validate { Validation::GpuAssisted } else { Validation::Off };
     if let Some(output) = &args.output {
         Frame::check_output_path(output)?;
     }
-    let device = Device::open(args.device.device.as_deref(), validation)?;
+    let device = Device::open(args.device.device.as_deref(), args.validation.validation())?;
     let kernels = kernels(args, device.description())?;
     let messages = device.messages().clone();
     let DeviceDescription { name, driver, .. } = device.description().clone();
@@ -101,7 +99,7 @@ pub fn run(args: &StabilityArgs) -> Result<()> {
     if !is_complete {
         return Err(TracerError::Stopped.into());
     }
-    refuse_messages(&messages.to_vec())?;
+    refuse_messages(&messages)?;
     let failed: Vec<_> = rows.iter().filter(|row| row.is_fault()).collect();
     if failed.is_empty() {
         return Ok(());

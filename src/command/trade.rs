@@ -13,7 +13,7 @@ use super::interrupt::Listener;
 use super::plan::parse_error;
 use super::render::parse_size;
 use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files, scene_named};
-use crate::gpu::{Device, Validation};
+use crate::gpu::Device;
 use crate::measure::output::Table;
 use crate::measure::trade::{
     self, Axes, Conditions, Counted, Question, SceneTrade, Step, Sweep, Trade, Truth, TruthError, measure, truth,
@@ -118,8 +118,7 @@ pub fn run(args: &TradeArgs) -> Result<()> {
 
     // From before the driver's threads compile anything until they are gone: a program that ends in their midst may crash.
     let listener = Listener::start();
-    let validation = if args.measuring.validate { Validation::GpuAssisted } else { Validation::Off };
-    let device = Device::open(args.measuring.device.device.as_deref(), validation)?;
+    let device = Device::open(args.measuring.device.device.as_deref(), args.measuring.validation.validation())?;
     let messages = device.messages().clone();
     let conditions = conditions(args);
     let mut trade = Trade { machine: Machine::of(device.description()), conditions, scenes: Vec::new() };
@@ -135,7 +134,7 @@ pub fn run(args: &TradeArgs) -> Result<()> {
     if let Some(path) = &args.save_settings {
         save_answer(&trade, path)?;
     }
-    refuse_messages(&messages.to_vec())?;
+    refuse_messages(&messages)?;
     unanswered(&trade).map_or(Ok(()), |unanswered| Err(unanswered.into()))
 }
 
@@ -154,7 +153,7 @@ pub(super) fn conditions(args: &TradeArgs) -> Conditions {
         },
         counted: if args.off_edges { Counted::OffDiscontinuities } else { Counted::AllPixels },
         budget: args.seconds.map_or(QUICK, Budget::lasting),
-        validation: args.measuring.validate,
+        validation: args.measuring.validation.is_on(),
         questions: questions(args),
     }
 }

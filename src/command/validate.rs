@@ -1,31 +1,34 @@
 //! `zerkalo validate`: everything that can be drawn, under the validation layers.
 
 use std::ops::ControlFlow;
-use std::panic::resume_unwind;
-use std::thread;
 
 use anyhow::Result;
 use clap::Args;
 
 use super::interrupt::Listener;
-use super::{DeviceArgs, ValidationFailed, print_json, print_line, progress_bar};
-use crate::gpu::{self, Allowance, Device, Messages, Validation};
-use crate::tracer::{TracerError, limits_of};
+use super::{Checks, DeviceArgs, ValidationFailed, print_json, print_line, progress_bar};
+use crate::gpu::{self, Device, Messages, Validation};
+use crate::tracer::{Kernel, TracerError, limits_of};
 use crate::validation::{
-    Allowed, Findings, Group, Outcome, PICTURE, Pass, Run, Scope, Switch, TriedCheck, runs, survey,
+    Findings, Group, OffScreen, Outcome, PICTURE, Pass, Program, Remarked, Run, Scope, Switch, TriedCheck,
+    draw_off_screen, instrumented, runs,
 };
 use crate::viewer::{Display, PictureWindow};
 
-/// Draw the gallery by every kernel, precision and variant of a plan under the validation layers
+/// Draw the gallery by every kernel, precision and variant of a plan under Vulkan's validation layer
 ///
-/// First under core, synchronization and GPU-assisted checks, then under core, synchronization and best-practices checks.
-/// Which of them the layer at hand does is found out by a mistake of each kind made on purpose. Exits with 1 if there is
-/// any message; Ctrl-C tells what was found so far.
+/// Under core and synchronization checks, then once more under GPU-assisted ones (every variant of a kernel once, as the
+/// layer's own code makes them compile long), then under best-practices ones. Which of them the layer at hand does is
+/// found out by a mistake of each kind made on purpose. Exits with 1 if there is any message; Ctrl-C tells what was found
+/// so far.
 #[derive(Debug, Clone, Args)]
 pub struct ValidateArgs {
-    /// For every kernel only as many scenes as turn on and off all that a plan can: about a minute
+    /// For every kernel only as many scenes as turn on and off all that a plan can
     #[arg(long)]
     pub quick: bool,
+    /// What to check, one after the other
+    #[arg(long, value_enum, value_name = "CHECKS", default_value_t = Checks::All)]
+    pub validate: Checks,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -33,8 +36,13 @@ pub struct ValidateArgs {
     pub device: DeviceArgs,
 }
 
-/// The layer does not do all at once.
-const KINDS: [Validation; 2] = [Validation::GpuAssisted, Validation::BestPractices];
+/// Those that take longest come first.
+fn kinds(checks: Checks) -> Vec<Validation> {
+    match checks {
+        Checks::All => vec![Validation::GpuAssisted, Validation::Core, Validation::BestPractices],
+        one => vec![one.validation()],
+    }
+}
 
 /// A run that is next, and how many there are in all passes.
 pub(super) struct Next<'a> {
@@ -83,31 +91,39 @@ pub(super) fn validated(args: &ValidateArgs, watch: Watch<'_>) -> Result<(Outcom
     let scope = if args.quick { Scope::EverySwitch } else { Scope::Whole };
     let runs = runs(&device, &limits_of(&device), scope)?;
     let mut outcome = Outcome::new(&device, layer, args.quick, &runs);
+    let program = |validation| {
+        let runs = if validation == Validation::GpuAssisted { instrumented(&runs, scope) } else { runs.clone() };
+        Program { validation, runs }
+    };
+    let programs: Vec<_> = kinds(args.validate).into_iter().map(program).collect();
     let mut findings = Findings::default();
-    let drawn = draw(wanted, &runs, &mut outcome, &mut findings, watch);
+    let drawn = draw(wanted, &programs, &mut outcome, &mut findings, watch);
     outcome.complete = drawn.is_ok();
     outcome.take_in(findings);
     Ok((outcome, drawn))
 }
 
-/// All passes, off-screen and in the window, up to the first failure.
+/// What the window draws: what differs from the runs off-screen is behind the tracing, and the same for all kernels. So
+/// of instrumented ones the course's is enough, which compiles fastest.
+fn shown(program: &Program) -> Vec<&Run> {
+    let is_shown = |run: &&Run| {
+        run.is_as_in_window && (program.validation != Validation::GpuAssisted || run.settings.kernel == Kernel::Course)
+    };
+    program.runs.iter().filter(is_shown).collect()
+}
+
+/// All programs, off-screen and in the window, up to the first failure.
 fn draw(
     wanted: Option<&str>,
-    runs: &[Run],
+    programs: &[Program],
     outcome: &mut Outcome,
     findings: &mut Findings,
     watch: Watch<'_>,
 ) -> Result<()> {
-    let shown: Vec<&Run> = runs.iter().filter(|run| run.is_as_in_window).collect();
-    let all = (runs.len() + shown.len()) * KINDS.len();
-    // At the same time: most of it is compiling, which takes one core.
-    let passes = thread::scope(|scope| {
-        let threads =
-            KINDS.map(|validation| scope.spawn(move || draw_off_screen(wanted, validation, runs, all, watch)));
-        threads.map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)))
-    });
+    let all = programs.iter().map(|program| program.runs.len() + shown(program).len()).sum();
+    let observe = |run: Option<&Run>| watch(run.map(|Run { name, .. }| Next { name, all }));
     let mut failure = Ok(());
-    for OffScreen { checks, pass, found, drawn } in passes {
+    for OffScreen { checks, pass, found, drawn } in draw_off_screen(wanted, programs, &observe) {
         outcome.checks.extend(checks);
         outcome.passes.push(pass);
         findings.add(found);
@@ -122,9 +138,9 @@ fn draw(
             return Ok(());
         }
     };
-    for validation in KINDS {
+    for program in programs {
         let messages = Messages::default();
-        let window = PictureWindow::open(&mut display, PICTURE, wanted, validation, &messages);
+        let window = PictureWindow::open(&mut display, PICTURE, wanted, program.validation, &messages);
         findings.note("opening the window", &messages, 0);
         let mut window = match window {
             Ok(window) => window,
@@ -133,7 +149,8 @@ fn draw(
                 return Ok(());
             }
         };
-        let mut pass = Pass::new(validation, true, shown.len());
+        let shown = shown(program);
+        let mut pass = Pass::new(program.validation, true, shown.len());
         let drawn = show_all(&mut window, &shown, &messages, findings, &mut |place| {
             is_at(shown[place], place, &mut pass, all, watch)
         });
@@ -141,37 +158,10 @@ fn draw(
         let before = messages.count();
         drop(window);
         findings.note("closing the window", &messages, before);
-        findings.note_allowed(&messages);
+        findings.note_remarks(&messages);
         drawn?;
     }
     Ok(())
-}
-
-/// A pass without a window, as far as it came.
-struct OffScreen {
-    checks: Vec<TriedCheck>,
-    pass: Pass,
-    found: Findings,
-    drawn: Result<(), TracerError>,
-}
-
-fn draw_off_screen(
-    wanted: Option<&str>,
-    validation: Validation,
-    runs: &[Run],
-    all: usize,
-    watch: Watch<'_>,
-) -> OffScreen {
-    let (mut checks, mut found) = (Vec::new(), Findings::default());
-    let mut pass = Pass::new(validation, false, runs.len());
-    let mut draw = || {
-        for (check, works) in gpu::try_checks(wanted, validation)? {
-            checks.push(TriedCheck { validation: validation.name(), check, works });
-        }
-        survey(wanted, validation, runs, &mut found, &mut |place| is_at(&runs[place], place, &mut pass, all, watch))
-    };
-    let drawn = draw();
-    OffScreen { checks, pass, found, drawn }
 }
 
 /// `observe` hears of every run, by its place, and can stop the work there.
@@ -203,7 +193,7 @@ fn lines(outcome: &Outcome) -> Vec<String> {
     let Outcome { device, driver, layer, width, height, .. } = outcome;
     let mut lines = vec![
         format!("{device} ({driver})"),
-        format!("{} {}, implementation {}", layer.name, layer.version, layer.implementation),
+        layer.to_string(),
         String::new(),
         "checks, each tried by a mistake made on purpose:".to_owned(),
     ];
@@ -218,13 +208,11 @@ fn lines(outcome: &Outcome) -> Vec<String> {
     lines.extend(outcome.no_window.iter().map(|reason| format!("  none in a window: {reason}")));
     lines.push("  not covered: the panel beside the window's picture".to_owned());
     let switches = outcome.switches.iter().map(|Switch { name, on, off }| format!("{name} {on}/{off}"));
-    lines.push(format!("  on/off in the plans of a pass: {}", switches.collect::<Vec<_>>().join(", ")));
+    lines.push(format!("  on/off in the plans of all of them: {}", switches.collect::<Vec<_>>().join(", ")));
     lines.push(String::new());
     lines.push(format!("messages: {}", outcome.message_count));
     lines.extend(outcome.messages.iter().flat_map(lines_of_group));
-    lines.extend(outcome.allowed.iter().map(|Allowed { count, allowance: Allowance { id_part, why } }| {
-        format!("allowed: {count} of *{id_part}*: {why}")
-    }));
+    lines.extend(outcome.remarks.iter().map(|Remarked { count, remark }| format!("no fault: {count} of {remark}")));
     lines
 }
 
@@ -246,9 +234,13 @@ fn line_of_pass(pass: &Pass) -> String {
 const RUNS_TOLD: usize = 3;
 
 fn lines_of_group(group: &Group) -> Vec<String> {
-    let Group { id, count, text, runs } = group;
+    let Group { severity, id, count, text, runs } = group;
     let more = runs.len().saturating_sub(RUNS_TOLD);
     let more = if more > 0 { format!("; and {more} more") } else { String::new() };
     let told = runs.iter().take(RUNS_TOLD).map(String::as_str).collect::<Vec<_>>().join("; ");
-    vec![format!("{count} of {id}"), format!("  {}", text.trim()), format!("  met by: {told}{more}")]
+    vec![
+        format!("{count} of {id} ({})", severity.name()),
+        format!("  {}", text.trim()),
+        format!("  met by: {told}{more}"),
+    ]
 }

@@ -6,8 +6,7 @@ use anyhow::Result;
 use clap::Args;
 
 use super::interrupt::Listener;
-use super::{DeviceArgs, refuse_messages, scene_named};
-use crate::gpu::Validation;
+use super::{DeviceArgs, ValidationArgs, refuse_messages, scene_named};
 use crate::scene::gallery;
 use crate::setting::Setting;
 use crate::tracer::TracerError;
@@ -24,9 +23,8 @@ pub struct ViewArgs {
     pub settings: Option<PathBuf>,
     #[command(flatten)]
     pub device: DeviceArgs,
-    /// Run under core, synchronization and best-practices validation; any message is a failure
-    #[arg(long)]
-    pub validate: bool,
+    #[command(flatten)]
+    pub validation: ValidationArgs,
     /// Print one JSON object for every frame that differs from the last, for scripts that drive the window: what is
     /// shown, and where the widgets are
     #[arg(long)]
@@ -51,7 +49,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
     let document = Document::new(scene, is_file.then(|| PathBuf::from(&args.scene)));
     let options = Options {
         device: args.device.device.clone(),
-        validation: if args.validate { Validation::BestPractices } else { Validation::Off },
+        validation: args.validation.validation(),
         is_observed: args.observe,
         watched_sources: args.watch.clone(),
         setting,
@@ -62,7 +60,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
     let messages = viewer::run(document, options, |stopper| {
         listener = Some(Listener::waking(move || stopper.stop()));
     })?;
-    refuse_messages(&messages.to_vec())?;
+    refuse_messages(&messages)?;
     match listener {
         Some(listener) if listener.stop_requested() => Err(TracerError::Stopped.into()),
         _ => Ok(()),

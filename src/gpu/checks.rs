@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::commands::Commands;
 use super::device::Device;
 use super::error::GpuError;
-use super::instance::Validation;
+use super::layer::Validation;
 use super::memory::{Buffer, BufferKind, PIXEL_BYTES, StorageImage};
 use super::messages::Message;
 use super::pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
@@ -46,8 +46,11 @@ impl Check {
         match validation {
             Validation::Off => &[Self::Hazards],
             Validation::Core => &[Self::Core, Self::Synchronization, Self::Hazards],
-            Validation::GpuAssisted => &[Self::Core, Self::Synchronization, Self::Hazards, Self::GpuAssisted],
-            Validation::BestPractices => &[Self::Core, Self::Synchronization, Self::Hazards, Self::BestPractices],
+            Validation::GpuAssisted => &[Self::GpuAssisted, Self::Hazards],
+            Validation::BestPractices => &[Self::BestPractices, Self::Hazards],
+            Validation::All => {
+                &[Self::Core, Self::Synchronization, Self::GpuAssisted, Self::BestPractices, Self::Hazards]
+            }
         }
     }
 
@@ -63,7 +66,7 @@ impl Check {
 
     /// Whether a message tells of that mistake.
     fn is_told_by(self, message: &Message) -> bool {
-        let Message { id, text } = message;
+        let Message { severity: _, id, text } = message;
         match self {
             Self::Core => id.contains("VUID-vkCmdPipelineBarrier"),
             Self::Synchronization => id.contains("SYNC-HAZARD"),

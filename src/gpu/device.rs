@@ -50,11 +50,17 @@ impl Device {
             vk::DeviceQueueCreateInfo::default().queue_family_index(candidate.queue_family).queue_priorities(&[1.0]);
         let queue_infos = [queue_info];
         let extensions = if shows_pictures { &[khr::swapchain::NAME.as_ptr()][..] } else { &[] };
-        let features = vk::PhysicalDeviceFeatures::default().shader_float64(candidate.description.float64);
+        let mut features = match instance.validation.is_gpu_assisted() {
+            true => candidate.features.of_instrumented_kernels(),
+            false => candidate.features.of_kernels(),
+        };
+        // Chained: of `pEnabledFeatures`, layer 1.4.309 says that it was not asked for what there is, which it was.
+        let mut of_1_0 = vk::PhysicalDeviceFeatures2::default().features(features.of_1_0);
         let info = vk::DeviceCreateInfo::default()
             .queue_create_infos(&queue_infos)
             .enabled_extension_names(extensions)
-            .enabled_features(&features);
+            .push_next(&mut of_1_0)
+            .push_next(&mut features.of_1_2);
         // SAFETY: `candidate` was listed by this instance and has the queue family; `info` lives through the call.
         let raw = unsafe { instance.raw.create_device(candidate.raw, &info, None) }
             .map_err(GpuError::call(|| format!("open device '{name}'")))?;

@@ -1,57 +1,20 @@
-use std::ffi::{CStr, c_char};
+use std::ffi::c_char;
 use std::sync::Arc;
 
 use ash::{ext, vk};
-use serde::Serialize;
 
 use super::error::GpuError;
+use super::layer::{Layer, LayerSetUp, SetUpBy, VALIDATION_LAYER, Validation, offers_extension};
 use super::messages::Messages;
 use super::surface::SurfaceTarget;
 
-/// How much the validation layer checks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Validation {
-    #[default]
-    Off,
-    /// Core and synchronization checks.
-    Core,
-    /// Core, synchronization and GPU-assisted checks; the last find out-of-bounds accesses and cost much time.
-    GpuAssisted,
-    /// Core, synchronization and best-practices checks.
-    BestPractices,
-}
-
-impl Validation {
-    /// What is watched besides core and synchronization.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Off => "off",
-            Self::Core => "core",
-            Self::GpuAssisted => "GPU-assisted",
-            Self::BestPractices => "best practices",
-        }
-    }
-}
-
-/// The validation layer as it is installed.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
-pub struct Layer {
-    pub name: String,
-    /// Of the Vulkan specification that it checks against.
-    pub version: String,
-    /// Its own number.
-    pub implementation: u32,
-}
-
 /// # Errors
-/// No loader, or no such layer.
+/// No loader, no such layer, or one that cannot be told what to check.
 pub fn validation_layer() -> Result<Layer, GpuError> {
     // SAFETY: the loader library's initialisers are trusted like any system library's.
     let entry = unsafe { ash::Entry::load() }.map_err(GpuError::NoLoader)?;
-    find_validation_layer(&entry)
+    Layer::find(&entry)
 }
-
-const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
 /// The version asked for; build.rs says why.
 pub(super) const API_VERSION: u32 = vk::API_VERSION_1_2;
@@ -60,6 +23,7 @@ pub(super) const API_VERSION: u32 = vk::API_VERSION_1_2;
 pub struct Instance {
     pub(super) raw: ash::Instance,
     pub(super) messages: Messages,
+    pub(super) validation: Validation,
     pub(super) has_debug_utils: bool,
     messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     // Holds the loader's library: dropped last.
@@ -94,12 +58,17 @@ impl Instance {
         let entry = unsafe { ash::Entry::load() }.map_err(GpuError::NoLoader)?;
         check_loader_version(&entry)?;
         let has_debug_utils = offers_extension(&entry, None, ext::debug_utils::NAME)?;
-        if validation != Validation::Off {
-            check_validation(&entry, has_debug_utils)?;
+        let layer = match validation {
+            Validation::Off => None,
+            _ if !has_debug_utils => return Err(GpuError::NoValidationExtension("VK_EXT_debug_utils")),
+            _ => Some(Layer::find(&entry)?),
+        };
+        if let Some(layer) = &layer {
+            messages.set_layer_version(layer.spec_version);
         }
 
-        let raw = create(&entry, validation, has_debug_utils, extensions, &messages)?;
-        let mut instance = Self { raw, messages, has_debug_utils, messenger: None, entry };
+        let raw = create(&entry, layer.as_ref(), validation, has_debug_utils, extensions, &messages)?;
+        let mut instance = Self { raw, messages, validation, has_debug_utils, messenger: None, entry };
         if validation != Validation::Off {
             let debug_utils = ext::debug_utils::Instance::new(&instance.entry, &instance.raw);
             // SAFETY: the list behind the messenger lives in `instance`, which destroys the messenger first.
@@ -136,39 +105,9 @@ fn check_loader_version(entry: &ash::Entry) -> Result<(), GpuError> {
     if version < API_VERSION { Err(GpuError::OldLoader(version_text(version))) } else { Ok(()) }
 }
 
-fn offers_extension(entry: &ash::Entry, layer: Option<&CStr>, wanted: &CStr) -> Result<bool, GpuError> {
-    // SAFETY: the entry is loaded.
-    let extensions = unsafe { entry.enumerate_instance_extension_properties(layer) }
-        .map_err(GpuError::call(|| "list the instance extensions"))?;
-    Ok(extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(wanted)))
-}
-
-fn find_validation_layer(entry: &ash::Entry) -> Result<Layer, GpuError> {
-    // SAFETY: the entry is loaded.
-    let layers = unsafe { entry.enumerate_instance_layer_properties() }
-        .map_err(GpuError::call(|| "list the instance layers"))?;
-    let layer = layers.iter().find(|layer| layer.layer_name_as_c_str() == Ok(VALIDATION_LAYER));
-    let layer = layer.ok_or(GpuError::NoValidationLayer)?;
-    Ok(Layer {
-        name: VALIDATION_LAYER.to_string_lossy().into_owned(),
-        version: version_text(layer.spec_version),
-        implementation: layer.implementation_version,
-    })
-}
-
-fn check_validation(entry: &ash::Entry, has_debug_utils: bool) -> Result<(), GpuError> {
-    find_validation_layer(entry)?;
-    if !has_debug_utils {
-        return Err(GpuError::NoValidationExtension("VK_EXT_debug_utils"));
-    }
-    if !offers_extension(entry, Some(VALIDATION_LAYER), ext::validation_features::NAME)? {
-        return Err(GpuError::NoValidationExtension("VK_EXT_validation_features"));
-    }
-    Ok(())
-}
-
 fn create(
     entry: &ash::Entry,
+    layer: Option<&Layer>,
     validation: Validation,
     has_debug_utils: bool,
     extensions: &[*const c_char],
@@ -181,21 +120,15 @@ fn create(
     if has_debug_utils {
         extensions.push(ext::debug_utils::NAME.as_ptr());
     }
-    if validation != Validation::Off {
-        extensions.push(ext::validation_features::NAME.as_ptr());
+    if let Some(layer) = layer {
+        extensions.push(layer.set_up_by.extension().as_ptr());
         layers.push(VALIDATION_LAYER.as_ptr());
     }
 
-    let mut checks = vec![vk::ValidationFeatureEnableEXT::SYNCHRONIZATION_VALIDATION];
-    match validation {
-        Validation::Off | Validation::Core => {}
-        Validation::GpuAssisted => {
-            checks.push(vk::ValidationFeatureEnableEXT::GPU_ASSISTED);
-            checks.push(vk::ValidationFeatureEnableEXT::GPU_ASSISTED_RESERVE_BINDING_SLOT);
-        }
-        Validation::BestPractices => checks.push(vk::ValidationFeatureEnableEXT::BEST_PRACTICES),
-    }
-    let mut features = vk::ValidationFeaturesEXT::default().enabled_validation_features(&checks);
+    let set_up = layer.map(|layer| LayerSetUp::new(layer, validation));
+    let settings = set_up.as_ref().map(LayerSetUp::settings).unwrap_or_default();
+    let mut settings = vk::LayerSettingsCreateInfoEXT::default().settings(&settings);
+    let mut features = set_up.as_ref().map(LayerSetUp::features).unwrap_or_default();
     // Chained here as well, so that creating and destroying the instance are under validation too.
     let mut messenger = messages.messenger_info();
 
@@ -203,8 +136,12 @@ fn create(
         .application_info(&application)
         .enabled_extension_names(&extensions)
         .enabled_layer_names(&layers);
-    if validation != Validation::Off {
-        info = info.push_next(&mut features).push_next(&mut messenger);
+    if let Some(layer) = layer {
+        info = match layer.set_up_by {
+            SetUpBy::LayerSettings => info.push_next(&mut settings),
+            SetUpBy::ValidationFeatures => info.push_next(&mut features),
+        };
+        info = info.push_next(&mut messenger);
     }
     // SAFETY: all that `info` points to lives until the call returns.
     unsafe { entry.create_instance(&info, None) }.map_err(|result| match result {

@@ -2,39 +2,123 @@
 
 use std::borrow::Cow;
 use std::ffi::{CStr, c_void};
+use std::fmt;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use ash::vk;
 use serde::Serialize;
 
+/// How a message was marked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Severity {
+    Warning,
+    Error,
+}
+
+impl Severity {
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Warning => "warning",
+            Self::Error => "error",
+        }
+    }
+}
+
 /// One message of a validation layer, or of this program's own hazard check.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Message {
+    pub severity: Severity,
     /// The layer's id, e.g. `VUID-vkCmdDispatch-None-02699`.
     pub id: String,
     pub text: String,
 }
 
-/// A kind of message that is no fault.
+/// What a layer is known to say that is no fault of a call: about its own set-up, or about what a user did.
+///
+/// A message is one only if all of it fits, so that no error and no other warning hides behind it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Allowance {
-    /// What such messages have in their ids.
-    pub id_part: &'static str,
+pub struct Remark {
+    /// The whole id.
+    pub id: &'static str,
+    pub severity: Severity,
+    /// What its text has in it.
+    pub text_part: &'static str,
+    /// First and last version of the layer, as Vulkan encodes them, for which it is known.
+    #[serde(skip)]
+    layers: [u32; 2],
     /// One line.
     pub why: &'static str,
 }
 
-/// What may be said without a fault.
-const ALLOWANCES: [Allowance; 2] = [
-    Allowance {
-        id_part: "specialuse-extension-debugging",
-        why: "debug names and the layer's own settings are for debugging, as it says; they are on for that",
+const fn layer(minor: u32, patch: u32) -> u32 {
+    vk::make_api_version(0, 1, minor, patch)
+}
+
+/// The layer whose ids have been seen to differ from those before.
+const FIRST_OF_1_4: u32 = layer(4, 304);
+const LAST_OF_1_3: u32 = layer(3, 999);
+/// No end is known.
+const ANY_LATER: u32 = u32::MAX;
+
+const DEBUG_NAMES: &str =
+    "debug names and messages are for debugging, as the layer says; under validation they are on for that";
+const RESIZED: &str =
+    "a window was resized between two looks at its size: the picture is shown, and the next swapchain fits again";
+
+const REMARKS: [Remark; 5] = [
+    Remark {
+        id: "UNASSIGNED-BestPractices-vkCreateInstance-specialuse-extension-debugging",
+        severity: Severity::Warning,
+        text_part: "",
+        layers: [layer(3, 200), LAST_OF_1_3],
+        why: DEBUG_NAMES,
     },
-    Allowance {
-        id_part: "BestPractices-SuboptimalSwapchain",
-        why: "a window was resized between two looks at its size: the picture is shown, and the next swapchain fits again",
+    Remark {
+        id: "BestPractices-specialuse-extension",
+        severity: Severity::Warning,
+        text_part: "VK_EXT_debug_utils",
+        layers: [FIRST_OF_1_4, ANY_LATER],
+        why: DEBUG_NAMES,
+    },
+    Remark {
+        id: "UNASSIGNED-BestPractices-SuboptimalSwapchain",
+        severity: Severity::Warning,
+        text_part: "",
+        layers: [layer(3, 200), LAST_OF_1_3],
+        why: RESIZED,
+    },
+    Remark {
+        id: "BestPractices-vkCreateSharedSwapchainsKHR-SuboptimalSwapchain",
+        severity: Severity::Warning,
+        text_part: "",
+        layers: [FIRST_OF_1_4, ANY_LATER],
+        why: RESIZED,
+    },
+    Remark {
+        id: "VALIDATION-SETTINGS",
+        severity: Severity::Warning,
+        text_part: "Both GPU Assisted Validation and Normal Core Check Validation are enabled",
+        layers: [FIRST_OF_1_4, ANY_LATER],
+        why: "all checks were asked for at once, which is slow, as the layer says",
     },
 ];
+
+impl Remark {
+    fn fits(&self, message: &Message, layer: u32) -> bool {
+        let [first, last] = self.layers;
+        self.id == message.id
+            && self.severity == message.severity
+            && message.text.contains(self.text_part)
+            && (first..=last).contains(&layer)
+    }
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(formatter, "{} ({}): {}", self.id, self.severity.name(), self.why)
+    }
+}
 
 /// Shared list of messages; clones are the same list.
 #[derive(Debug, Clone, Default)]
@@ -45,14 +129,16 @@ pub struct Messages {
 #[derive(Debug, Default)]
 struct Book {
     faults: Vec<Message>,
-    /// How many messages of each of [`ALLOWANCES`].
-    allowed: [usize; ALLOWANCES.len()],
+    /// How many messages of each of [`REMARKS`].
+    remarks: [usize; REMARKS.len()],
+    /// Version of the validation layer that speaks, as Vulkan encodes it.
+    layer: u32,
 }
 
 impl Book {
     fn enter(&mut self, message: Message) {
-        match ALLOWANCES.iter().position(|allowance| message.id.contains(allowance.id_part)) {
-            Some(allowance) => self.allowed[allowance] += 1,
+        match REMARKS.iter().position(|remark| remark.fits(&message, self.layer)) {
+            Some(remark) => self.remarks[remark] += 1,
             None => self.faults.push(message),
         }
     }
@@ -78,10 +164,20 @@ impl Messages {
         self.book().faults.len()
     }
 
-    /// How many messages of each allowed kind there were.
-    pub fn allowed(&self) -> [(Allowance, usize); ALLOWANCES.len()] {
-        let counts = self.book().allowed;
-        std::array::from_fn(|allowance| (ALLOWANCES[allowance], counts[allowance]))
+    /// The remarks that were made, each with how often.
+    pub fn remarks(&self) -> Vec<(Remark, usize)> {
+        let counts = self.book().remarks;
+        REMARKS.into_iter().zip(counts).filter(|(_, count)| *count > 0).collect()
+    }
+
+    /// All remarks that are known.
+    pub fn every_remark() -> Vec<Remark> {
+        REMARKS.to_vec()
+    }
+
+    /// Tells which layer's remarks to expect: a version as Vulkan encodes it.
+    pub(super) fn set_layer_version(&self, version: u32) {
+        self.book().layer = version;
     }
 
     fn book(&self) -> MutexGuard<'_, Book> {
@@ -109,7 +205,7 @@ fn lock(book: &Mutex<Book>) -> MutexGuard<'_, Book> {
 /// # Safety
 /// Vulkan calls it with a valid `data`, and `user_data` is the book given in [`Messages::messenger_info`].
 unsafe extern "system" fn on_message(
-    _severity: vk::DebugUtilsMessageSeverityFlagsEXT,
+    severity: vk::DebugUtilsMessageSeverityFlagsEXT,
     _kind: vk::DebugUtilsMessageTypeFlagsEXT,
     data: *const vk::DebugUtilsMessengerCallbackDataEXT<'_>,
     user_data: *mut c_void,
@@ -122,7 +218,9 @@ unsafe extern "system" fn on_message(
         };
         (&*user_data.cast::<Mutex<Book>>(), string(data.p_message_id_name), string(data.p_message))
     };
-    lock(book).enter(Message { id: id.into_owned(), text: text.into_owned() });
+    let is_error = severity.contains(vk::DebugUtilsMessageSeverityFlagsEXT::ERROR);
+    let severity = if is_error { Severity::Error } else { Severity::Warning };
+    lock(book).enter(Message { severity, id: id.into_owned(), text: text.into_owned() });
     vk::FALSE
 }
 
@@ -130,15 +228,52 @@ unsafe extern "system" fn on_message(
 mod tests {
     use super::*;
 
-    #[test]
-    fn what_is_allowed_is_counted_and_no_fault() {
+    const LAYERS: [u32; 2] = [layer(3, 239), layer(4, 309)];
+
+    fn said(layer: u32, severity: Severity, id: &str, text: &str) -> Messages {
         let messages = Messages::default();
-        for id in ["VUID-1", "BestPractices-vkCreateInstance-specialuse-extension-debugging", "VUID-2"] {
-            messages.push(Message { id: id.to_owned(), text: String::new() });
+        messages.set_layer_version(layer);
+        messages.push(Message { severity, id: id.to_owned(), text: text.to_owned() });
+        messages
+    }
+
+    #[test]
+    fn what_a_layer_says_of_itself_is_told_apart_and_counted() {
+        for remark in REMARKS {
+            let text = format!("vkCreateInstance(): {}, and more", remark.text_part);
+            let is_known = |layer| said(layer, remark.severity, remark.id, &text).remarks() == [(remark, 1)];
+            assert_eq!(
+                LAYERS.map(is_known),
+                LAYERS.map(|layer| (remark.layers[0]..=remark.layers[1]).contains(&layer))
+            );
+            assert!(LAYERS.into_iter().any(is_known), "{} is of no layer that was tried", remark.id);
         }
+    }
+
+    #[test]
+    fn no_error_no_other_id_no_other_text_and_no_other_layer_hides_behind_it() {
+        for remark in REMARKS {
+            let text = format!("vkCreateInstance(): {}", remark.text_part);
+            let is_fault = |messages: Messages| messages.count() == 1 && messages.remarks().is_empty();
+            for layer in LAYERS {
+                assert!(is_fault(said(layer, Severity::Error, remark.id, &text)), "{}", remark.id);
+                assert!(is_fault(said(layer, remark.severity, &format!("{}-02699", remark.id), &text)));
+                assert!(is_fault(said(layer, remark.severity, "VUID-vkCmdDispatch-None-02699", &text)));
+                if !remark.text_part.is_empty() {
+                    assert!(is_fault(said(layer, remark.severity, remark.id, "VK_EXT_another")), "{}", remark.id);
+                }
+            }
+            assert!(is_fault(said(super::layer(2, 100), remark.severity, remark.id, &text)), "{}", remark.id);
+        }
+    }
+
+    #[test]
+    fn faults_are_kept_in_their_order() {
+        let messages = said(LAYERS[0], Severity::Error, "VUID-1", "");
+        let second = Message { severity: Severity::Warning, id: "VUID-2".to_owned(), text: String::new() };
+        messages.push(second.clone());
         assert_eq!(messages.count(), 2);
-        assert_eq!(messages.after(1), [Message { id: "VUID-2".to_owned(), text: String::new() }]);
+        assert_eq!(messages.after(1), [second]);
         assert_eq!(messages.after(3), []);
-        assert_eq!(messages.allowed().map(|(_, count)| count), [1, 0]);
     }
 }

@@ -74,12 +74,55 @@ pub struct DeviceDescription {
 pub(super) struct Candidate {
     pub raw: vk::PhysicalDevice,
     pub description: DeviceDescription,
+    pub features: Features,
     pub float_controls: [FloatControls; 2],
     pub queue_family: u32,
     pub timestamp_valid_bits: u32,
     pub timestamp_period_ns: f32,
     /// vendorID, deviceID, pipelineCacheUUID: what a pipeline cache is good for.
     pub cache_identity: ([u32; 2], [u8; vk::UUID_SIZE]),
+}
+
+/// What a device offers, or is asked for, beyond what every one has.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Features {
+    pub of_1_0: vk::PhysicalDeviceFeatures,
+    /// It chains no other.
+    pub of_1_2: vk::PhysicalDeviceVulkan12Features<'static>,
+}
+
+impl Features {
+    /// # Safety
+    /// `raw` comes from the instance, and is of Vulkan 1.2.
+    unsafe fn offered(instance: &Instance, raw: vk::PhysicalDevice) -> Self {
+        let mut of_1_2 = vk::PhysicalDeviceVulkan12Features::default();
+        let mut offered = vk::PhysicalDeviceFeatures2::default().push_next(&mut of_1_2);
+        // SAFETY: as promised; the structures live through the call.
+        unsafe { instance.raw.get_physical_device_features2(raw, &mut offered) };
+        Self { of_1_0: offered.features, of_1_2 }
+    }
+
+    /// Those of them that kernels use.
+    pub fn of_kernels(&self) -> Self {
+        let of_1_0 = vk::PhysicalDeviceFeatures::default().shader_float64(self.of_1_0.shader_float64 == vk::TRUE);
+        Self { of_1_0, ..Self::default() }
+    }
+
+    /// Those, and what the layer's code in instrumented kernels uses: it would force them on by itself, and warn of that.
+    pub fn of_instrumented_kernels(&self) -> Self {
+        let mut features = self.of_kernels();
+        let (of_1_0, of_1_2) = (&mut features.of_1_0, &mut features.of_1_2);
+        of_1_0.fragment_stores_and_atomics = self.of_1_0.fragment_stores_and_atomics;
+        of_1_0.vertex_pipeline_stores_and_atomics = self.of_1_0.vertex_pipeline_stores_and_atomics;
+        of_1_0.shader_int64 = self.of_1_0.shader_int64;
+        of_1_2.timeline_semaphore = self.of_1_2.timeline_semaphore;
+        of_1_2.vulkan_memory_model = self.of_1_2.vulkan_memory_model;
+        of_1_2.vulkan_memory_model_device_scope = self.of_1_2.vulkan_memory_model_device_scope;
+        of_1_2.buffer_device_address = self.of_1_2.buffer_device_address;
+        of_1_2.storage_buffer8_bit_access = self.of_1_2.storage_buffer8_bit_access;
+        of_1_2.uniform_and_storage_buffer8_bit_access = self.of_1_2.uniform_and_storage_buffer8_bit_access;
+        features
+    }
 }
 
 /// With a surface, what a device lacks for showing pictures in that window counts too.
@@ -95,9 +138,8 @@ pub(super) fn list(instance: &Instance, surface: Option<&Surface>) -> Result<Vec
 
 fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk::PhysicalDevice) -> Candidate {
     // SAFETY: `raw` comes from this instance. The 1.2 structure is only chained where the device knows it.
-    let (properties, features, families, of_1_2) = unsafe {
+    let (properties, families, of_1_2) = unsafe {
         let properties = instance.raw.get_physical_device_properties(raw);
-        let features = instance.raw.get_physical_device_features(raw);
         let families = instance.raw.get_physical_device_queue_family_properties(raw);
         let of_1_2 = (properties.api_version >= vk::API_VERSION_1_2).then(|| {
             let mut driver = vk::PhysicalDeviceDriverProperties::default();
@@ -109,9 +151,9 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
                 .push_next(&mut subgroups);
             instance.raw.get_physical_device_properties2(raw, &mut properties2);
             let driver = format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
-            (driver, (FloatControls::of(&floats), subgroups_are_octets(&subgroups)))
+            (driver, FloatControls::of(&floats), subgroups_are_octets(&subgroups), Features::offered(instance, raw))
         });
-        (properties, features, families, of_1_2)
+        (properties, families, of_1_2)
     };
 
     let mut lacks = Vec::new();
@@ -136,8 +178,10 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
     }
     let queue_family = able.iter().copied().find(has_timestamps).or(able.first().copied());
 
-    let (driver, of_kernels) = of_1_2.unzip();
-    let (float_controls, has_octets) = of_kernels.unzip();
+    let (driver, float_controls, has_octets, features) = match of_1_2 {
+        Some((driver, controls, octets, features)) => (driver, controls, octets, features),
+        None => (format!("version {:#x}", properties.driver_version), Default::default(), false, Features::default()),
+    };
     let kind = DeviceKind::from_vulkan(properties.device_type);
     let timestamp_valid_bits = queue_family.map_or(0, |family| families[family].timestamp_valid_bits);
     Candidate {
@@ -146,18 +190,19 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
             index,
             name: text(properties.device_name_as_c_str()),
             kind,
-            driver: driver.unwrap_or_else(|| format!("version {:#x}", properties.driver_version)).trim().to_owned(),
+            driver: driver.trim().to_owned(),
             api_version: version_text(properties.api_version),
             timestamps: timestamp_valid_bits > 0,
             max_image_side: properties.limits.max_image_dimension2_d,
             max_storage_bytes: properties.limits.max_storage_buffer_range.into(),
             max_texels: properties.limits.max_texel_buffer_elements.into(),
-            float64: features.shader_float64 == vk::TRUE,
+            float64: features.of_1_0.shader_float64 == vk::TRUE,
             // Elsewhere a subgroup of eight may be a part of what a GPU does at once, and not all of it there.
-            octets: has_octets.unwrap_or(false) && kind == DeviceKind::Cpu,
+            octets: has_octets && kind == DeviceKind::Cpu,
             lacks,
         },
-        float_controls: float_controls.unwrap_or_default(),
+        features,
+        float_controls,
         queue_family: queue_family.unwrap_or(0) as u32,
         timestamp_valid_bits,
         timestamp_period_ns: properties.limits.timestamp_period,

@@ -9,7 +9,7 @@ use super::device::Device;
 use super::error::GpuError;
 use super::hazards::{Hazards, Use};
 use super::memory::{COLOR, PIXEL_BYTES};
-use super::messages::Message;
+use super::messages::{Message, Severity};
 use super::pipeline::{BindingSet, ComputePipeline, Resource};
 use super::timer::Timer;
 
@@ -328,7 +328,11 @@ impl<'h> Recorder<'h> {
     }
 
     fn report(&self, text: String) {
-        self.device.instance.messages.push(Message { id: "zerkalo-hazard".to_owned(), text });
+        self.device.instance.messages.push(Message {
+            severity: Severity::Error,
+            id: "zerkalo-hazard".to_owned(),
+            text,
+        });
     }
 }
 

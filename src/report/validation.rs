@@ -4,10 +4,10 @@ use maud::{Markup, html};
 
 use super::text::{both, dash, english, table, yes_no};
 use crate::gpu::Check;
-use crate::validation::{Allowed, Group, Outcome, Pass, Switch};
+use crate::validation::{Group, Outcome, Pass, Remarked, Switch};
 
 pub fn body(outcome: &Outcome) -> Markup {
-    let Outcome { layer, width, height, no_window, message_count, messages, allowed, switches, .. } = outcome;
+    let Outcome { layer, width, height, no_window, message_count, messages, remarks, switches, .. } = outcome;
     html! {
         p {
             (both(
@@ -21,7 +21,7 @@ pub fn body(outcome: &Outcome) -> Markup {
                      слоями. Работает ли проверка, выясняется нарочной ошибкой, поэтому молчание что-то значит."
                 ),
             ))
-            " " (english(format!("{} {} ({})", layer.name, layer.version, layer.implementation)))
+            " " (english(layer.to_string()))
         }
         p.verdict {
             @if *message_count == 0 { (both("No message.", "Сообщений нет.")) } @else {
@@ -37,10 +37,10 @@ pub fn body(outcome: &Outcome) -> Markup {
             (table(&[both("message", "сообщение"), both("times", "раз"), both("text", "текст"), both("met by", "где")],
                 &messages.iter().map(of_group).collect::<Vec<_>>()))
         }
-        @if !allowed.is_empty() {
-            p { (both("Allowed, with the reason:", "Допущены, с причиной:")) }
-            ul { @for Allowed { count, allowance } in allowed {
-                li { (count) " × " (english(format!("*{}*: {}", allowance.id_part, allowance.why))) }
+        @if !remarks.is_empty() {
+            p { (both("No faults, with the reason:", "Не ошибки, с причиной:")) }
+            ul { @for Remarked { count, remark } in remarks {
+                li { (count) " × " (english(remark.to_string())) }
             } }
         }
         details {
@@ -89,10 +89,10 @@ fn passes(passes: &[Pass]) -> Markup {
 fn of_group(group: &Group) -> Vec<Markup> {
     /// The layer's texts are long, and of many runs a few tell enough.
     const RUNS_TOLD: usize = 3;
-    let Group { id, count, text, runs } = group;
+    let Group { severity, id, count, text, runs } = group;
     let told = runs.iter().take(RUNS_TOLD).map(String::as_str).collect::<Vec<_>>().join("; ");
     let more = if runs.len() > RUNS_TOLD { "; …" } else { "" };
-    vec![english(id), html! { (count) }, english(text.trim()), english(told + more)]
+    vec![english(format!("{id} ({})", severity.name())), html! { (count) }, english(text.trim()), english(told + more)]
 }
 
 fn of_switch(switch: &Switch) -> Vec<Markup> {

@@ -1,10 +1,11 @@
 use serde::Serialize;
 
-use crate::gpu::{Allowance, Message, Messages};
+use crate::gpu::{Message, Messages, Remark, Severity};
 
-/// Messages of one id.
+/// Messages of one id and severity.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Group {
+    pub severity: Severity,
     /// The layer's, mostly of a rule of the specification (VUID).
     pub id: String,
     pub count: usize,
@@ -19,8 +20,8 @@ pub struct Group {
 pub struct Findings {
     /// In the order of their first messages.
     pub groups: Vec<Group>,
-    /// What was said and is no fault, with how often.
-    pub allowed: Vec<(Allowance, usize)>,
+    /// What layers said that is no fault, with how often.
+    pub remarks: Vec<(Remark, usize)>,
 }
 
 impl Findings {
@@ -32,25 +33,25 @@ impl Findings {
     /// Takes in the messages that `run` brought: all but the first `before`.
     pub fn note(&mut self, run: &str, messages: &Messages, before: usize) {
         for message in messages.after(before) {
-            let Message { id, text } = message;
-            self.add_group(Group { id, count: 1, text, runs: vec![run.to_owned()] });
+            let Message { severity, id, text } = message;
+            self.add_group(Group { severity, id, count: 1, text, runs: vec![run.to_owned()] });
         }
     }
 
-    /// Takes in, once for an instance, what is allowed.
-    pub fn note_allowed(&mut self, messages: &Messages) {
-        messages.allowed().into_iter().filter(|(_, count)| *count > 0).for_each(|allowed| self.add_allowed(allowed));
+    /// Takes in, once for an instance, what is no fault.
+    pub fn note_remarks(&mut self, messages: &Messages) {
+        messages.remarks().into_iter().for_each(|remark| self.add_remark(remark));
     }
 
     /// Takes in what was found elsewhere.
     pub fn add(&mut self, other: Self) {
-        let Self { groups, allowed } = other;
+        let Self { groups, remarks } = other;
         groups.into_iter().for_each(|group| self.add_group(group));
-        allowed.into_iter().for_each(|allowed| self.add_allowed(allowed));
+        remarks.into_iter().for_each(|remark| self.add_remark(remark));
     }
 
     fn add_group(&mut self, group: Group) {
-        match self.groups.iter_mut().find(|known| known.id == group.id) {
+        match self.groups.iter_mut().find(|known| (&known.id, known.severity) == (&group.id, group.severity)) {
             Some(known) => {
                 known.count += group.count;
                 let is_new = |run: &String| !known.runs.contains(run);
@@ -61,10 +62,10 @@ impl Findings {
         }
     }
 
-    fn add_allowed(&mut self, (allowance, count): (Allowance, usize)) {
-        match self.allowed.iter_mut().find(|(known, _)| *known == allowance) {
+    fn add_remark(&mut self, (remark, count): (Remark, usize)) {
+        match self.remarks.iter_mut().find(|(known, _)| *known == remark) {
             Some((_, sum)) => *sum += count,
-            None => self.allowed.push((allowance, count)),
+            None => self.remarks.push((remark, count)),
         }
     }
 }
@@ -74,23 +75,23 @@ mod tests {
     use super::*;
 
     #[test]
-    fn messages_are_grouped_by_their_ids_with_what_brought_them() {
+    fn messages_are_grouped_by_id_and_severity_with_what_brought_them() {
         let messages = Messages::default();
         let mut findings = Findings::default();
-        let mut say = |run: &str, said: &[(&str, &str)]| {
+        let mut say = |run: &str, said: &[(Severity, &str, &str)]| {
             let before = messages.count();
-            for (id, text) in said {
-                messages.push(Message { id: (*id).to_owned(), text: (*text).to_owned() });
+            for &(severity, id, text) in said {
+                messages.push(Message { severity, id: id.to_owned(), text: text.to_owned() });
             }
             findings.note(run, &messages, before);
         };
+        use Severity::{Error, Warning};
         say("opening", &[]);
-        say("first", &[("A", "first A"), ("B", "first B"), ("A", "second A")]);
-        say("second", &[("A", "third A"), ("x-specialuse-extension-debugging", "")]);
-        findings.note_allowed(&messages);
-        findings.note_allowed(&messages);
-        assert_eq!(findings.count(), 4);
-        let group = |id: &str, count, text: &str, runs: &[&str]| Group {
+        say("first", &[(Error, "A", "first A"), (Error, "B", "first B"), (Error, "A", "second A")]);
+        say("second", &[(Error, "A", "third A"), (Warning, "A", "a warning")]);
+        assert_eq!(findings.count(), 5);
+        let group = |severity, id: &str, count, text: &str, runs: &[&str]| Group {
+            severity,
             id: id.to_owned(),
             count,
             text: text.to_owned(),
@@ -98,9 +99,11 @@ mod tests {
         };
         assert_eq!(
             findings.groups,
-            [group("A", 3, "first A", &["first", "second"]), group("B", 1, "first B", &["first"])]
+            [
+                group(Error, "A", 3, "first A", &["first", "second"]),
+                group(Error, "B", 1, "first B", &["first"]),
+                group(Warning, "A", 1, "a warning", &["second"]),
+            ]
         );
-        let [(allowance, 2)] = findings.allowed[..] else { panic!("{:?}", findings.allowed) };
-        assert_eq!(allowance.id_part, "specialuse-extension-debugging");
     }
 }

@@ -1,7 +1,7 @@
 use serde::Serialize;
 
 use super::{Findings, Group, PICTURE, Run, Switch, switches};
-use crate::gpu::{Allowance, Check, DeviceDescription, Layer, Validation};
+use crate::gpu::{Check, DeviceDescription, Layer, Remark, Validation};
 
 /// What was drawn under validation, and what was said of it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -24,7 +24,7 @@ pub struct Outcome {
     /// Of all groups.
     pub message_count: usize,
     pub messages: Vec<Group>,
-    pub allowed: Vec<Allowed>,
+    pub remarks: Vec<Remarked>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -45,11 +45,18 @@ pub struct Pass {
     pub begun: usize,
 }
 
+/// What a layer said that is no fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-pub struct Allowed {
+pub struct Remarked {
     pub count: usize,
     #[serde(flatten)]
-    pub allowance: Allowance,
+    pub remark: Remark,
+}
+
+impl Remarked {
+    pub fn of((remark, count): (Remark, usize)) -> Self {
+        Self { count, remark }
+    }
 }
 
 impl Outcome {
@@ -70,15 +77,15 @@ impl Outcome {
             switches: switches(runs),
             message_count: 0,
             messages: Vec::new(),
-            allowed: Vec::new(),
+            remarks: Vec::new(),
         }
     }
 
     pub fn take_in(&mut self, findings: Findings) {
         self.message_count = findings.count();
-        let Findings { groups, allowed } = findings;
+        let Findings { groups, remarks } = findings;
         self.messages = groups;
-        self.allowed = allowed.into_iter().map(|(allowance, count)| Allowed { count, allowance }).collect();
+        self.remarks = remarks.into_iter().map(Remarked::of).collect();
     }
 }
 

@@ -26,7 +26,10 @@ const NARROW_WORKGROUP: [u32; 2] = [4, 8];
 
 /// More than one sample a pixel, and a smaller picture enlarged. One scene shows what these add behind the tracing.
 const SAMPLED: Sampling = Sampling { samples: 3, scale: 0.5 };
-const SAMPLED_SCENE: &str = "showcase";
+const SAMPLED_SCENE: &str = TWO_LIGHTS;
+
+/// All kinds of solids, too few for boxes over them, and two lights in sight.
+const TWO_LIGHTS: &str = "showcase with one light more";
 
 /// How much of the gallery is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -64,26 +67,53 @@ pub fn runs(device: &DeviceDescription, limits: &Limits, scope: Scope) -> Result
             }
         }
     }
-    let of_one_shader = runs.chunk_by(are_of_one_shader).flat_map(|runs| match scope {
+    let of_one_shader = by_shader(&runs).flat_map(|runs| match scope {
         Scope::Whole if runs[0].settings.workgroup == WORKGROUP => runs.to_vec(),
-        Scope::Whole | Scope::EverySwitch => few_with_all_switches(runs),
+        Scope::Whole | Scope::EverySwitch => few_with_all(runs, |_| true),
     });
     Ok(of_one_shader.collect())
+}
+
+/// Runs in a row that are drawn by one shader.
+pub(super) fn by_shader(runs: &[Run]) -> impl Iterator<Item = &[Run]> {
+    runs.chunk_by(are_of_one_shader)
 }
 
 fn are_of_one_shader(a: &Run, b: &Run) -> bool {
     (a.settings.kernel, a.settings.workgroup) == (b.settings.kernel, b.settings.workgroup)
 }
 
-/// Again and again the run that has most of what was not to be seen yet, in the order of the whole.
-fn few_with_all_switches(runs: &[Run]) -> Vec<Run> {
+/// Those of the runs that [GPU-assisted validation](crate::gpu::Validation::GpuAssisted) draws, which makes each variant
+/// of a kernel compile for many seconds: in the whole those that show each switch on and off, else as few as have each
+/// access, by the kernels that plans choose on this device. (All at once in one scene would be fewer, but a kernel of all
+/// kinds with boxes over them takes minutes to compile once it is instrumented.)
+pub fn instrumented(runs: &[Run], scope: Scope) -> Vec<Run> {
+    let of_one_shader = by_shader(runs).flat_map(|runs| match scope {
+        Scope::Whole => few_with_all(runs, |_| true),
+        Scope::EverySwitch if runs[0].settings.workgroup == WORKGROUP => few_with_all(runs, adds_accesses),
+        Scope::EverySwitch => Vec::new(),
+    });
+    of_one_shader.collect()
+}
+
+/// Cuts and upright boxes only leave out what a kernel reads.
+fn adds_accesses((name, is_on): State) -> bool {
+    is_on && !["upright boxes", "paths cut", "shadow rays cut"].contains(&name)
+}
+
+/// A part of a kernel, and whether it is on.
+type State = (&'static str, bool);
+
+/// Again and again the run that has most of what counts and was not to be seen yet, in the order of the whole.
+fn few_with_all(runs: &[Run], counts: impl Fn(State) -> bool) -> Vec<Run> {
     // The course's kernel has one state.
-    let states: Vec<Vec<(&str, bool)>> =
+    let states: Vec<Vec<State>> =
         runs.iter().map(|run| states(run).map_or(vec![("course", true)], |states| states.to_vec())).collect();
-    let mut seen: Vec<(&str, bool)> = Vec::new();
+    let mut seen: Vec<State> = Vec::new();
     let mut chosen = Vec::new();
     loop {
-        let news = |place: &usize| states[*place].iter().filter(|state| !seen.contains(state)).count();
+        let is_news = |state: &&State| counts(**state) && !seen.contains(state);
+        let news = |place: &usize| states[*place].iter().filter(is_news).count();
         // Of equals the first.
         let best = (0..runs.len()).rev().max_by_key(news).filter(|place| news(place) > 0);
         let Some(best) = best else { break };
@@ -110,7 +140,7 @@ fn subjects() -> Vec<Subject> {
         let lights = [showcase.lights.clone(), vec![Light { position, ..Light::default() }]].concat();
         let two_lights = Scene { lights, ..showcase.clone() };
         let unlit = Scene { lights: Vec::new(), max_depth: 1, ..showcase };
-        subjects.push(subject("showcase with one light more".to_owned(), two_lights));
+        subjects.push(subject(TWO_LIGHTS.to_owned(), two_lights));
         subjects.push(subject("showcase without lights and reflections".to_owned(), unlit));
     }
     subjects
@@ -201,7 +231,7 @@ impl Way {
 }
 
 /// What plans turn on and off, with whether this run has it; `None` for the course's kernel, which is always the same.
-fn states(run: &Run) -> Option<[(&'static str, bool); 16]> {
+fn states(run: &Run) -> Option<[State; 16]> {
     let &Settings { kernel, cuts, width, height, without_boxes, samples, scale, .. } = &run.settings;
     if kernel == Kernel::Course {
         return None;
@@ -343,6 +373,27 @@ mod tests {
             assert!(are_of_one_shader(&quick[0], &whole[0]));
             for (quick, whole) in switches(quick).iter().zip(switches(whole)) {
                 assert_eq!((quick.on > 0, quick.off > 0), (whole.on > 0, whole.off > 0), "{}", whole.name);
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_instrumented_is_little_and_has_each_access() {
+        let device = device(true, true);
+        for (scope, a_shader) in [(Scope::Whole, 8), (Scope::EverySwitch, 2)] {
+            let all = runs_on(&device, scope);
+            let all: Vec<_> = match scope {
+                Scope::Whole => all,
+                Scope::EverySwitch => all.into_iter().filter(|run| run.settings.workgroup == WORKGROUP).collect(),
+            };
+            let few = instrumented(&all, scope);
+            for (few, all) in by_shader(&few).zip(by_shader(&all)) {
+                assert!(are_of_one_shader(&few[0], &all[0]));
+                assert!(few.len() <= a_shader, "{}: {}", few[0].name, few.len());
+                for (few, all) in switches(few).iter().zip(switches(all)) {
+                    let is_asked_for = scope == Scope::Whole || adds_accesses((all.name, true));
+                    assert!(!is_asked_for || (few.on > 0) == (all.on > 0), "{}", all.name);
+                }
             }
         }
     }

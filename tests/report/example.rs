@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
-use zerkalo::gpu::{Allowance, Check, Layer, Validation, tried_devices};
+use zerkalo::gpu::{Check, Layer, Messages, SetUpBy, Severity, Validation, tried_devices};
 use zerkalo::measure::fps_table::{Cell, FpsTable, Kernel, Plan};
 use zerkalo::measure::stability::Row;
 use zerkalo::measure::trade::{Axes, Conditions, Counted, Question, SceneTrade, Sweep, Target, Trade, measure, truth};
@@ -12,7 +12,7 @@ use zerkalo::report::{Ending, NamedMaps, Report, Section, Stability};
 use zerkalo::scene::gallery;
 use zerkalo::setting;
 use zerkalo::tracer::limits_of;
-use zerkalo::validation::{Allowed, Group, Outcome, Pass, Switch, TriedCheck};
+use zerkalo::validation::{Group, Outcome, Pass, Remarked, Switch, TriedCheck};
 
 use crate::common::TestDevice;
 
@@ -66,8 +66,9 @@ fn maps(device: &TestDevice, name: &str) -> NamedMaps {
 
 fn validation() -> Outcome {
     let kind = "GPU-assisted";
-    let checks = Check::of(Validation::GpuAssisted).iter();
+    let checks = Check::of(Validation::All).iter();
     let messages = vec![Group {
+        severity: Severity::Error,
         id: "VUID-<vkCmdDispatch>-None".to_owned(),
         count: 7,
         text: "the layer's text is long ".repeat(20),
@@ -76,7 +77,7 @@ fn validation() -> Outcome {
     Outcome {
         device: DEVICE.to_owned(),
         driver: DRIVER.to_owned(),
-        layer: Layer { name: "a layer".to_owned(), version: "1.3.239".to_owned(), implementation: 1 },
+        layer: Layer::named("a layer", [1, 3, 239], SetUpBy::ValidationFeatures),
         quick: true,
         width: 64,
         height: 28,
@@ -87,7 +88,7 @@ fn validation() -> Outcome {
         switches: vec![Switch { name: "shadows", on: 5, off: 4 }],
         message_count: 7,
         messages,
-        allowed: vec![Allowed { count: 3, allowance: Allowance { id_part: "part", why: "it is no fault" } }],
+        remarks: Messages::every_remark().into_iter().map(|remark| Remarked { count: 3, remark }).collect(),
     }
 }
 
