@@ -1,5 +1,6 @@
 //! The window's picture and widgets on the device: everything that is lost with it, and nothing else.
 
+use std::io;
 use std::sync::Arc;
 
 use egui::epaint::ImageDelta;
@@ -17,6 +18,9 @@ pub enum ScreenError {
     Tracer(#[from] TracerError),
     #[error("could not draw the widgets: {0}")]
     Widgets(#[from] RendererError),
+    /// Of what scripts are told.
+    #[error("could not write to standard output")]
+    Observer(#[from] io::Error),
 }
 
 impl From<GpuError> for ScreenError {

@@ -95,6 +95,15 @@ fn size_language_and_speed_are_remembered_by_the_next_run() {
 }
 
 #[test]
+fn the_window_closes_without_a_word_when_nobody_reads_what_it_tells() {
+    let desk = Desk::new(Locale::English, SIZE);
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let output = desk.program(&["view", "four", "--observe"]).stdout(writer).output().unwrap();
+    assert_eq!((output.status.code(), String::from_utf8(output.stderr).unwrap().as_str()), (Some(141), ""));
+}
+
+#[test]
 fn without_a_display_one_line_names_the_way_without_a_window() {
     let desk = Desk::new(Locale::English, SIZE);
     let output = desk.program(&["view", "start"]).env_remove("DISPLAY").output().unwrap();

@@ -1,5 +1,6 @@
 //! From what the window knows to what it shows.
 
+use std::io;
 use std::time::{Duration, Instant};
 
 use super::super::action::Kernel;
@@ -102,7 +103,7 @@ impl Session {
         self.present(&mut widgets)?;
         self.take_screenshots()?;
         self.show_title();
-        self.observe(observation);
+        self.observe(observation)?;
         let is_next_due = self.state.is_continuous && self.state.kernel != Kernel::Reference && self.is_whole();
         if (self.is_whole(), self.is_finished()) != stage_before || is_next_due {
             // The widgets have told of what was, or a screenshot has held up the next picture.
@@ -275,11 +276,11 @@ impl Session {
         }
     }
 
-    fn observe(&mut self, observation: Option<Observation>) {
+    fn observe(&mut self, observation: Option<Observation>) -> io::Result<()> {
         let (is_whole, is_finished) = (self.is_whole(), self.is_finished());
         let (Some(observer), Some(mut observation), Some(screen)) = (&mut self.observer, observation, &self.screen)
         else {
-            return;
+            return Ok(());
         };
         let size = self.window.inner_size();
         observation.window = [size.width, size.height];
@@ -293,10 +294,7 @@ impl Session {
         observation.refusal = self.refusal.clone();
         observation.device_losses = self.losses.count;
         observation.validation_messages = self.messages.count();
-        if observer.tell(observation).is_err() {
-            // Whoever listened has gone.
-            self.observer = None;
-        }
+        observer.tell(observation)
     }
 
     fn next_frame(&self) -> NextFrame {
