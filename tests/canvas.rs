@@ -16,12 +16,14 @@ struct Easel {
     canvas: Canvas,
     in_flight: InFlight,
     pictures: usize,
+    /// Which of each pixel these pictures were.
+    samples: Vec<u32>,
 }
 
 impl Easel {
     fn new(device: &TestDevice, size: [u32; 2]) -> Self {
         let canvas = Canvas::new(device, &shaders::COURSE, size).unwrap();
-        Self { canvas, in_flight: InFlight::new(device, "easel").unwrap(), pictures: 0 }
+        Self { canvas, in_flight: InFlight::new(device, "easel").unwrap(), pictures: 0, samples: Vec::new() }
     }
 
     /// One submission, as for a frame of the window.
@@ -35,7 +37,9 @@ impl Easel {
                 Ok(())
             })
             .unwrap();
-        self.pictures += self.canvas.take_finished_ns().len();
+        let finished = self.canvas.take_finished();
+        self.pictures += finished.len();
+        self.samples.extend(finished.iter().map(|finished| finished.sample));
     }
 
     /// The picture of a scene, once all of it is traced; and how many submissions it took.
@@ -326,6 +330,17 @@ fn samples_are_added_while_nothing_changes_until_all_are_there() {
             scene.camera.position.x += 0.25;
         }
     }
+}
+
+#[test]
+fn times_tell_which_sample_they_are_of() {
+    let device = TestDevice::open();
+    if !device.description().timestamps {
+        return;
+    }
+    let mut easel = Easel::sampled(&device, [97, 61], Sampling { samples: 3, scale: 1.0 });
+    easel.draw(&scene("showcase"));
+    assert_eq!(easel.samples, [0, 1, 2], "the first is a picture, the others are added to it");
 }
 
 #[test]

@@ -51,7 +51,7 @@ impl Easel {
             self.in_flight
                 .run(|recorder| {
                     canvas.record(recorder, place)?;
-                    canvas.take_finished_ns();
+                    canvas.take_finished();
                     Ok(())
                 })
                 .unwrap();

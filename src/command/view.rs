@@ -11,9 +11,17 @@ use crate::gpu::Validation;
 use crate::scene::gallery;
 use crate::setting::Setting;
 use crate::tracer::TracerError;
+use crate::viewer::action::Kernel;
 use crate::viewer::{self, Document, Options};
 
+/// The gallery's scene that the course's program began with; the window opens on it as that program did.
+const COURSE_START: &str = "start";
+
 /// Open the window on a scene
+///
+/// It draws by the kernel that was chosen last in its panel, at first the accurate one in f32; on the scene `start`, by
+/// the course's. While nothing changes, the accurate kernels add samples to every pixel, 16 unless the panel is told
+/// otherwise.
 #[derive(Debug, Clone, Args)]
 pub struct ViewArgs {
     /// A scene file (.toml, .json, .zscene) or a name of `zerkalo gallery`, such as `start`
@@ -54,6 +62,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         validation: if args.validate { Validation::BestPractices } else { Validation::Off },
         is_observed: args.observe,
         watched_sources: args.watch.clone(),
+        kernel: (args.scene == COURSE_START).then_some(Kernel::Course),
         setting,
         lose_device_after: args.lose_device_after,
         config_folder: viewer::config_folder(),

@@ -15,6 +15,7 @@ use super::{Kernel, TracerError, Work};
 use crate::gpu::{Device, GpuError, InFlight, Recorder, Resource, Shader, Use};
 use crate::scene::Scene;
 use images::{Enlarging, Image, images};
+pub use timing::Finished;
 use timing::{Chunk, Timing};
 
 /// Pictures that take longer are seen while they come into being; shorter ones only whole, lest a moving one fall apart.
@@ -255,10 +256,9 @@ impl Canvas {
         is_under_way.then(|| done as f32 / (samples * self.sweep.total()) as f32)
     }
 
-    /// GPU times of the pictures that came to their end since the last call, nanoseconds; nothing where the device has
-    /// no timestamps.
-    pub fn take_finished_ns(&mut self) -> Vec<u64> {
-        self.timing.take_finished_ns()
+    /// GPU times of the pictures that came to their end since the last call; nothing where the device has no timestamps.
+    pub fn take_finished(&mut self) -> Vec<Finished> {
+        self.timing.take_finished()
     }
 
     /// Bytes of primitives uploaded so far.
@@ -319,7 +319,8 @@ impl Canvas {
             timer.iter().for_each(|timer| recorder.stop(timer));
             Ok(())
         })?;
-        let chunk = Chunk { picture: self.begun, blocks, is_last, begun_at: self.begun_at, submitted: Instant::now() };
+        let (picture, sample, begun_at) = (self.begun, self.sample, self.begun_at);
+        let chunk = Chunk { picture, sample, blocks, is_last, begun_at, submitted: Instant::now() };
         self.timing.submitted(place, chunk);
         Ok(())
     }

@@ -198,7 +198,7 @@ impl<'d> PictureWindow<'d> {
         self.in_flight.wait_for_all()?;
         let canvas = &mut self.canvases[canvas].1;
         self.in_flight.places().into_iter().try_for_each(|place| canvas.collect(place))?;
-        let gpu_time_ns = canvas.take_finished_ns().last().copied();
+        let gpu_time_ns = canvas.take_finished().last().map(|finished| finished.gpu_time_ns);
         Ok(is_shown.then(|| Shown { gpu_time_ns, wall_time: start.elapsed() }))
     }
 

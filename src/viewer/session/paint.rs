@@ -120,9 +120,11 @@ impl Session {
     /// Takes in the times of the pictures that came to their end; whether there were any.
     fn take_times(&mut self) -> bool {
         let Some(screen) = &mut self.screen else { return false };
-        let finished = screen.canvas.take_finished_ns();
+        let finished = screen.canvas.take_finished();
         self.pictures_traced += finished.len() as u64;
-        finished.iter().for_each(|time_ns| self.frame_times.push(*time_ns));
+        // How fast pictures follow each other: what is added to one at rest holds up none.
+        let pictures = finished.iter().filter(|finished| finished.sample == 0);
+        pictures.for_each(|finished| self.frame_times.push(finished.gpu_time_ns));
         self.losses.is_fresh &= finished.is_empty();
         !finished.is_empty()
     }
