@@ -5,7 +5,7 @@ mod common;
 use common::{TestDevice, render};
 use glam::DVec3;
 use zerkalo::frame::Frame;
-use zerkalo::gpu::{InFlight, shaders};
+use zerkalo::gpu::{Builds, InFlight, Shader, shaders};
 use zerkalo::scene::{Light, Projection, Scene, Solid, gallery};
 use zerkalo::setting::{self, Setting};
 use zerkalo::tracer::sampling::Sampling;
@@ -22,7 +22,7 @@ struct Easel {
 
 impl Easel {
     fn new(device: &TestDevice, size: [u32; 2]) -> Self {
-        let canvas = Canvas::new(device, &shaders::COURSE, size).unwrap();
+        let canvas = Canvas::new(device, Kernel::Course, &Builds::default(), size).unwrap();
         Self { canvas, in_flight: InFlight::new(device, "easel").unwrap(), pictures: 0, samples: Vec::new() }
     }
 
@@ -127,6 +127,34 @@ fn every_kernel_s_picture_is_the_tracer_s_bit_for_bit_and_follows_every_edit() {
             check(&scene, "two lights");
         }
     }
+}
+
+#[test]
+fn another_build_of_the_kernel_that_draws_draws_from_then_on() {
+    let device = TestDevice::open();
+    let (size, scene) = ([97, 61], scene("showcase"));
+    let [accurate, plain] = [ACCURATE, Kernel::Plain].map(|kernel| rendered_by(&device, kernel, &scene, size));
+    assert!(accurate != plain, "builds are told apart by their pictures");
+    let mut easel = Easel::new(&device, size);
+    easel.canvas.use_kernel(ACCURATE).unwrap();
+    assert!(easel.draw(&scene).0 == accurate);
+
+    let build = |of: Shader, code: Shader| Shader { spirv: code.spirv, ..of };
+    easel.canvas.replace_shader(build(shaders::COURSE, shaders::COURSE)).unwrap();
+    easel.canvas.replace_shader(shaders::WHITTED_F32).unwrap();
+    assert_eq!(easel.draw(&scene).1, 0, "another kernel's build, and the same one: nothing is traced anew");
+    easel.canvas.replace_shader(build(shaders::WHITTED_F32, shaders::WHITTED_PLAIN)).unwrap();
+    easel.canvas.replace_shader(build(shaders::WHITTED_F32_OCTETS, shaders::WHITTED_PLAIN_OCTETS)).unwrap();
+    assert!(easel.draw(&scene).0 == plain);
+    // It is kept while another kernel draws, and given up for a newer one.
+    easel.canvas.use_kernel(Kernel::Course).unwrap();
+    easel.draw(&scene);
+    easel.canvas.use_kernel(ACCURATE).unwrap();
+    assert!(easel.draw(&scene).0 == plain);
+    for own in [shaders::WHITTED_F32, shaders::WHITTED_F32_OCTETS] {
+        easel.canvas.replace_shader(own).unwrap();
+    }
+    assert!(easel.draw(&scene).0 == accurate);
 }
 
 #[test]

@@ -28,7 +28,7 @@ pub struct Options {
     pub validation: Validation,
     /// Prints a line of JSON for every frame that differs from the last.
     pub is_observed: bool,
-    /// Sources of the kernel, compiled anew when they change; in debug builds only.
+    /// Sources of the kernels, compiled anew when they change; in debug builds only.
     pub watched_sources: Option<PathBuf>,
     /// What draws at first instead of the usual kernel.
     pub kernel: Option<Kernel>,

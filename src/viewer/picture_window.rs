@@ -16,7 +16,7 @@ use super::app::ViewerError;
 use super::screen::ScreenError;
 use super::swapchain::{Fit, Swapchain};
 use crate::gpu::{
-    Device, GpuError, InFlight, Instance, Messages, Semaphores, Surface, SurfaceTarget, Validation, shaders,
+    Builds, Device, GpuError, InFlight, Instance, Messages, Semaphores, Surface, SurfaceTarget, Validation,
 };
 use crate::scene::Scene;
 use crate::tracer::{Canvas, Kernel, TracerError};
@@ -174,8 +174,7 @@ impl<'d> PictureWindow<'d> {
         if let Some(place) = self.canvases.iter().position(|(known, _)| *known == kernel) {
             return Ok(place);
         }
-        let mut canvas = Canvas::new(&self.device, &shaders::COURSE, self.size)?;
-        canvas.use_kernel(kernel)?;
+        let canvas = Canvas::new(&self.device, kernel, &Builds::default(), self.size)?;
         self.canvases.push((kernel, canvas));
         Ok(self.canvases.len() - 1)
     }

@@ -31,10 +31,9 @@ impl Session {
             Err(error) if error.is_device_lost() && !self.losses.is_fresh => {
                 self.keep_work();
                 self.losses = Losses { count: self.losses.count + 1, is_fresh: true };
-                // The window cannot serve two.
-                self.screen = None;
-                self.screen =
-                    Some(open_screen(&self.window, &self.state, &self.options, &self.shader, &self.messages)?);
+                // The window cannot serve two: the old one is gone before the new one is made.
+                let builds = self.screen.take().map(|screen| screen.canvas.builds().clone()).unwrap_or_default();
+                self.screen = Some(open_screen(&self.window, &self.state, &self.options, &builds, &self.messages)?);
                 // The new device has none of the textures that the old context has told of.
                 (self.context, self.egui) = new_egui(&self.window, self.options.is_observed);
                 self.reference = Reference::default();
@@ -98,7 +97,7 @@ impl Session {
         let (mut widgets, observation, repaint_delay) = self.run_widgets();
         self.widgets_due = Instant::now().checked_add(repaint_delay);
         #[cfg(debug_assertions)]
-        self.take_kernel();
+        self.take_kernels();
         self.ask_for_picture()?;
         self.present(&mut widgets)?;
         self.take_screenshots()?;
