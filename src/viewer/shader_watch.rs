@@ -30,17 +30,17 @@ const DRAWING: [(&str, &[Shader]); 2] = [
 ];
 
 /// Of each build of [`DRAWING`]: the shader, or the compiler's messages.
-pub type Builds = Vec<Result<Shader, String>>;
+pub type Outcomes = Vec<Result<Shader, String>>;
 
 /// Watches a folder of sources, such as `glsl/`; dropped, it stops.
 pub struct ShaderWatch {
-    builds: Receiver<Builds>,
+    outcomes: Receiver<Outcomes>,
 }
 
 impl ShaderWatch {
     /// `wake` is called after each build, from another thread.
     pub fn start(sources: PathBuf, wake: impl Fn() + Send + 'static) -> Self {
-        let (sender, builds) = mpsc::channel();
+        let (sender, outcomes) = mpsc::channel();
         std::thread::spawn(move || {
             let mut seen = state_of(&sources);
             loop {
@@ -56,16 +56,16 @@ impl ShaderWatch {
                 }
             }
         });
-        Self { builds }
+        Self { outcomes }
     }
 
     /// What the last change came to; `None` since the last call.
-    pub fn take(&self) -> Option<Builds> {
-        self.builds.try_iter().last()
+    pub fn take(&self) -> Option<Outcomes> {
+        self.outcomes.try_iter().last()
     }
 }
 
-fn build_all(sources: &Path) -> Builds {
+fn build_all(sources: &Path) -> Outcomes {
     let of_kernel = |(kernel, own): (&'static str, &'static [Shader])| {
         own.iter().map(move |own| build(sources, kernel, own).map_err(|error| error.to_string()))
     };
@@ -114,7 +114,7 @@ mod tests {
     }
 
     /// The first complaint, if there is one, and the names of those that are without.
-    fn sorted(builds: Builds) -> (Option<String>, Vec<&'static str>) {
+    fn sorted(builds: Outcomes) -> (Option<String>, Vec<&'static str>) {
         let (good, broken): (Vec<_>, Vec<_>) = builds.into_iter().partition(Result::is_ok);
         let names = good.into_iter().flatten().map(|shader| shader.name).collect();
         (broken.into_iter().find_map(Result::err), names)
