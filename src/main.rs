@@ -1,9 +1,10 @@
 //! Parses the command line, runs one command, reports the error.
 
+use std::io::ErrorKind;
 use std::process::ExitCode;
 
 use clap::Parser;
-use zerkalo::command::{Command, exit_code, interrupt};
+use zerkalo::command::{Command, READER_GONE, exit_code, interrupt};
 
 /// A Vulkan ray tracer for simple solids with adjustable reflection.
 ///
@@ -17,14 +18,27 @@ struct Cli {
 }
 
 fn main() -> ExitCode {
-    let command = Cli::parse().command.unwrap_or_else(showcase);
+    let command = match Cli::try_parse() {
+        Ok(cli) => cli.command.unwrap_or_else(showcase),
+        Err(answer) => return told(&answer),
+    };
     let result = interrupt::handle().map_err(anyhow::Error::from).and_then(|()| command.run());
-    match result {
+    match result.map_err(|error| (exit_code(&error), error)) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
+        Err((READER_GONE, _)) => ExitCode::from(READER_GONE),
+        Err((code, error)) => {
             eprintln!("zerkalo: {error:#}");
-            ExitCode::from(exit_code(&error))
+            ExitCode::from(code)
         }
+    }
+}
+
+/// Prints what the command line is answered with: the help that was asked for, or what is wrong.
+fn told(answer: &clap::Error) -> ExitCode {
+    match answer.print() {
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::from(READER_GONE),
+        // As clap itself would end: whatever else is wrong with the terminal, the code tells as much.
+        Ok(()) | Err(_) => u8::try_from(answer.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from),
     }
 }
 

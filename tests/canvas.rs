@@ -5,7 +5,7 @@ mod common;
 use common::{TestDevice, render};
 use glam::DVec3;
 use zerkalo::frame::Frame;
-use zerkalo::gpu::{InFlight, shaders};
+use zerkalo::gpu::{Builds, InFlight, Shader, shaders};
 use zerkalo::scene::{Light, Projection, Scene, Solid, gallery};
 use zerkalo::setting::{self, Setting};
 use zerkalo::tracer::sampling::Sampling;
@@ -16,12 +16,14 @@ struct Easel {
     canvas: Canvas,
     in_flight: InFlight,
     pictures: usize,
+    /// Which of each pixel these pictures were.
+    samples: Vec<u32>,
 }
 
 impl Easel {
     fn new(device: &TestDevice, size: [u32; 2]) -> Self {
-        let canvas = Canvas::new(device, &shaders::COURSE, size).unwrap();
-        Self { canvas, in_flight: InFlight::new(device, "easel").unwrap(), pictures: 0 }
+        let canvas = Canvas::new(device, Kernel::Course, &Builds::default(), size).unwrap();
+        Self { canvas, in_flight: InFlight::new(device, "easel").unwrap(), pictures: 0, samples: Vec::new() }
     }
 
     /// One submission, as for a frame of the window.
@@ -35,7 +37,9 @@ impl Easel {
                 Ok(())
             })
             .unwrap();
-        self.pictures += self.canvas.take_finished_ns().len();
+        let finished = self.canvas.take_finished();
+        self.pictures += finished.len();
+        self.samples.extend(finished.iter().map(|finished| finished.sample));
     }
 
     /// The picture of a scene, once all of it is traced; and how many submissions it took.
@@ -123,6 +127,34 @@ fn every_kernel_s_picture_is_the_tracer_s_bit_for_bit_and_follows_every_edit() {
             check(&scene, "two lights");
         }
     }
+}
+
+#[test]
+fn another_build_of_the_kernel_that_draws_draws_from_then_on() {
+    let device = TestDevice::open();
+    let (size, scene) = ([97, 61], scene("showcase"));
+    let [accurate, plain] = [ACCURATE, Kernel::Plain].map(|kernel| rendered_by(&device, kernel, &scene, size));
+    assert!(accurate != plain, "builds are told apart by their pictures");
+    let mut easel = Easel::new(&device, size);
+    easel.canvas.use_kernel(ACCURATE).unwrap();
+    assert!(easel.draw(&scene).0 == accurate);
+
+    let build = |of: Shader, code: Shader| Shader { spirv: code.spirv, ..of };
+    easel.canvas.replace_shader(build(shaders::COURSE, shaders::COURSE)).unwrap();
+    easel.canvas.replace_shader(shaders::WHITTED_F32).unwrap();
+    assert_eq!(easel.draw(&scene).1, 0, "another kernel's build, and the same one: nothing is traced anew");
+    easel.canvas.replace_shader(build(shaders::WHITTED_F32, shaders::WHITTED_PLAIN)).unwrap();
+    easel.canvas.replace_shader(build(shaders::WHITTED_F32_OCTETS, shaders::WHITTED_PLAIN_OCTETS)).unwrap();
+    assert!(easel.draw(&scene).0 == plain);
+    // It is kept while another kernel draws, and given up for a newer one.
+    easel.canvas.use_kernel(Kernel::Course).unwrap();
+    easel.draw(&scene);
+    easel.canvas.use_kernel(ACCURATE).unwrap();
+    assert!(easel.draw(&scene).0 == plain);
+    for own in [shaders::WHITTED_F32, shaders::WHITTED_F32_OCTETS] {
+        easel.canvas.replace_shader(own).unwrap();
+    }
+    assert!(easel.draw(&scene).0 == accurate);
 }
 
 #[test]
@@ -326,6 +358,17 @@ fn samples_are_added_while_nothing_changes_until_all_are_there() {
             scene.camera.position.x += 0.25;
         }
     }
+}
+
+#[test]
+fn times_tell_which_sample_they_are_of() {
+    let device = TestDevice::open();
+    if !device.description().timestamps {
+        return;
+    }
+    let mut easel = Easel::sampled(&device, [97, 61], Sampling { samples: 3, scale: 1.0 });
+    easel.draw(&scene("showcase"));
+    assert_eq!(easel.samples, [0, 1, 2], "the first is a picture, the others are added to it");
 }
 
 #[test]

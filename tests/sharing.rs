@@ -9,7 +9,7 @@ use common::TestDevice;
 use glam::DVec3;
 use scenes::{material, mixed_scene, primitive, sphere};
 use zerkalo::frame::Frame;
-use zerkalo::gpu::{InFlight, shaders};
+use zerkalo::gpu::{Builds, InFlight};
 use zerkalo::scene::{Camera, Light, Scene, Solid};
 use zerkalo::tracer::{Canvas, Kernel, Precision, Settings, Tracer};
 
@@ -27,8 +27,7 @@ impl Easel {
     fn new(device: &TestDevice, precision: Precision, scene: &Scene) -> Self {
         let kernel = Kernel::Whitted(precision);
         let settings = Settings { kernel, ..Settings::new(SIZE[0], SIZE[1]) };
-        let mut canvas = Canvas::new(device, &shaders::COURSE, SIZE).unwrap();
-        canvas.use_kernel(kernel).unwrap();
+        let canvas = Canvas::new(device, kernel, &Builds::default(), SIZE).unwrap();
         let tracer = Tracer::new(device, scene, &settings).unwrap();
         Self { canvas, in_flight: InFlight::new(device, "easel").unwrap(), tracer, settings }
     }
@@ -51,7 +50,7 @@ impl Easel {
             self.in_flight
                 .run(|recorder| {
                     canvas.record(recorder, place)?;
-                    canvas.take_finished_ns();
+                    canvas.take_finished();
                     Ok(())
                 })
                 .unwrap();

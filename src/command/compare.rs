@@ -31,7 +31,7 @@ pub enum CompareError {
     Frame(#[from] FrameError),
     #[error("could not compare {a:?} with {b:?}: {reason}")]
     Comparison { a: PathBuf, b: PathBuf, reason: ComparisonError },
-    #[error("could not write the comparison: {0}")]
+    #[error("could not write the comparison")]
     Output(#[from] io::Error),
 }
 

@@ -230,8 +230,16 @@ fn print_json(value: &impl Serialize) -> anyhow::Result<()> {
     print_line(&serde_json::to_string(value)?)
 }
 
-/// 2 where the input is at fault, 130 after Ctrl-C, else 1.
+/// Exit code of a program ended by SIGPIPE, as shells report it.
+pub const READER_GONE: u8 = 141;
+
+/// 2 where the input is at fault, 130 after Ctrl-C, [`READER_GONE`] where nobody reads standard output any more, of which
+/// nothing is to be said; else 1.
 pub fn exit_code(error: &anyhow::Error) -> u8 {
+    // Only standard output is a pipe: files are written beside their names first.
+    let is_reader_gone = error
+        .chain()
+        .any(|cause| cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe));
     let is_input_error = error.chain().any(|cause| {
         cause.downcast_ref().is_some_and(SceneError::is_input_error)
             || cause.downcast_ref().is_some_and(FrameError::is_input_error)
@@ -245,7 +253,9 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.is::<trade::Contradictory>()
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });
-    if matches!(error.downcast_ref(), Some(TracerError::Stopped))
+    if is_reader_gone {
+        READER_GONE
+    } else if matches!(error.downcast_ref(), Some(TracerError::Stopped))
         || error.is::<fps::Stopped>()
         || error.is::<report::Stopped>()
     {

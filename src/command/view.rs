@@ -10,9 +10,17 @@ use super::{DeviceArgs, ValidationArgs, refuse_messages, scene_named};
 use crate::scene::gallery;
 use crate::setting::Setting;
 use crate::tracer::TracerError;
+use crate::viewer::action::Kernel;
 use crate::viewer::{self, Document, Options};
 
+/// The gallery's scene that the course's program began with; the window opens on it as that program did.
+const COURSE_START: &str = "start";
+
 /// Open the window on a scene
+///
+/// It draws by the kernel that was chosen last in its panel, at first the accurate one in f32; on the scene `start`, by
+/// the course's. While nothing changes, the accurate kernels add samples to every pixel, 16 unless the panel is told
+/// otherwise.
 #[derive(Debug, Clone, Args)]
 pub struct ViewArgs {
     /// A scene file (.toml, .json, .zscene) or a name of `zerkalo gallery`, such as `start`
@@ -29,7 +37,8 @@ pub struct ViewArgs {
     /// shown, and where the widgets are
     #[arg(long)]
     pub observe: bool,
-    /// Compile the kernel anew whenever its sources, this program's own or those in DIR, change; in debug builds only
+    /// Compile the kernels, whichever is shown, anew whenever their sources, this program's own or those in DIR, change; in
+    /// debug builds only
     #[arg(long, value_name = "DIR", num_args = 0..=1, default_missing_value = concat!(env!("CARGO_MANIFEST_DIR"), "/glsl"))]
     pub watch: Option<PathBuf>,
     /// Act as if the device was lost after so many frames
@@ -52,6 +61,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         validation: args.validation.validation(),
         is_observed: args.observe,
         watched_sources: args.watch.clone(),
+        kernel: (args.scene == COURSE_START).then_some(Kernel::Course),
         setting,
         lose_device_after: args.lose_device_after,
         config_folder: viewer::config_folder(),

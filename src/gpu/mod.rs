@@ -44,8 +44,8 @@ pub use physical::{DeviceDescription, DeviceKind, choose};
 pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
 pub use recorder::{Dispatch, Recorder};
 #[cfg(debug_assertions)]
-pub(crate) use shader_compiler::{AS_IT_STANDS, compile};
-pub use shaders::Shader;
+pub(crate) use shader_compiler::{compile, variants};
+pub use shaders::{Builds, Shader};
 pub use surface::{Surface, SurfaceTarget};
 pub use timer::Timer;
 pub use tried::{TriedDevice, tried_devices};

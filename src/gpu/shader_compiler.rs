@@ -12,11 +12,10 @@ pub const AS_WRITTEN: [&str; 3] = ["course", "probe_course_rays", "whitted"];
 /// One build of a kernel's source: what is appended to its name, and macros with their values.
 #[derive(Clone, Copy)]
 pub struct Variant {
-    #[allow(dead_code, reason = "build.rs names kernels by it; `view --watch` compiles those without one")]
     pub suffix: &'static str,
     pub macros: &'static [(&'static str, &'static str)],
     /// Whether the device is asked to keep to IEEE 754 as far as it can.
-    #[allow(dead_code, reason = "build.rs writes it down; `view --watch` has no such kernel")]
+    #[allow(dead_code, reason = "build.rs writes it down, where `view --watch` finds it")]
     pub asks_for_float_controls: bool,
 }
 
@@ -48,7 +47,6 @@ const WITH_OCTETS: [Variant; 6] = [
 ];
 
 /// The builds of a kernel, by its [name](kernel_name).
-#[allow(dead_code, reason = "build.rs makes them all; `view --watch` compiles one")]
 pub fn variants(name: &str) -> &'static [Variant] {
     match name {
         "whitted" => &WITH_OCTETS,

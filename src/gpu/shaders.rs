@@ -19,4 +19,21 @@ impl Shader {
     }
 }
 
+/// Builds of kernels in the place of those that the program has in it, such as of sources that have changed since.
+#[derive(Clone, Default)]
+pub struct Builds(Vec<Shader>);
+
+impl Builds {
+    /// Takes the place of the program's own of that name, and of a build before.
+    pub fn put(&mut self, build: Shader) {
+        self.0.retain(|other| other.name != build.name);
+        self.0.push(build);
+    }
+
+    /// The build in the place of one of the program's own, or that one.
+    pub fn of<'a>(&'a self, own: &'a Shader) -> &'a Shader {
+        self.0.iter().find(|build| build.name == own.name).unwrap_or(own)
+    }
+}
+
 include!(concat!(env!("OUT_DIR"), "/shaders.rs"));

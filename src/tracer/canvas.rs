@@ -12,9 +12,10 @@ use super::live_kernel::{LiveKernel, State};
 use super::pixels::pixel_buffer;
 use super::sampling::Sampling;
 use super::{Kernel, TracerError, Work};
-use crate::gpu::{Device, GpuError, InFlight, Recorder, Resource, Shader, Use};
+use crate::gpu::{Builds, Device, GpuError, InFlight, Recorder, Resource, Shader, Use};
 use crate::scene::Scene;
 use images::{Enlarging, Image, images};
+pub use timing::Finished;
 use timing::{Chunk, Timing};
 
 /// Pictures that take longer are seen while they come into being; shorter ones only whole, lest a moving one fall apart.
@@ -32,7 +33,7 @@ pub struct Canvas {
     kernel: LiveKernel,
     /// Which that is.
     kind: Kernel,
-    course_shader: Shader,
+    builds: Builds,
     images: [Image; 2],
     /// Where a kernel draws that does not draw into an image: the picture begun last, which goes on from there into its
     /// image.
@@ -62,16 +63,16 @@ pub struct Canvas {
 }
 
 impl Canvas {
-    /// By the course kernel; `shader`: a build of `glsl/course.comp`.
-    pub fn new(device: &Arc<Device>, shader: &Shader, size: [u32; 2]) -> Result<Self, TracerError> {
-        let kernel = LiveKernel::new(device, Kernel::Course, shader)?;
+    /// By a kernel, made from these builds.
+    pub fn new(device: &Arc<Device>, kind: Kernel, builds: &Builds, size: [u32; 2]) -> Result<Self, TracerError> {
+        let kernel = LiveKernel::new(device, kind, builds)?;
         Ok(Self {
             images: images(device, size)?,
             pixels: None,
             sweep: Sweep::new(LiveKernel::blocks(size)),
             kernel,
-            kind: Kernel::Course,
-            course_shader: shader.clone(),
+            kind,
+            builds: builds.clone(),
             shown: 0,
             enlarging: None,
             size,
@@ -111,26 +112,44 @@ impl Canvas {
         if kind == self.kind {
             return Ok(false);
         }
-        let kernel = LiveKernel::new(&self.device, kind, &self.course_shader)?;
+        let kernel = LiveKernel::new(&self.device, kind, &self.builds)?;
         self.replace_kernel(kernel, kind);
         Ok(true)
     }
 
-    /// Another build of `glsl/course.comp` from the next chunk on; the picture is to be [asked for](Canvas::show) again.
-    pub fn replace_shader(&mut self, shader: &Shader) -> Result<(), TracerError> {
-        if self.kind == Kernel::Course {
-            let kernel = LiveKernel::new(&self.device, Kernel::Course, shader)?;
-            self.replace_kernel(kernel, Kernel::Course);
+    /// Another build of a shader of the program from the next chunk on; where the kernel is made from it, the picture is
+    /// to be [asked for](Canvas::show) again.
+    ///
+    /// # Errors
+    /// The device does not take it; the last build goes on.
+    pub fn replace_shader(&mut self, build: Shader) -> Result<(), TracerError> {
+        let own = self.kernel.shader();
+        let is_used = own.name == build.name && self.builds.of(own).spirv != build.spirv;
+        let mut builds = self.builds.clone();
+        builds.put(build);
+        if is_used {
+            self.kernel.rebuild(&self.device, &builds)?;
+            self.begin_anew();
         }
-        self.course_shader = shader.clone();
+        self.builds = builds;
         Ok(())
+    }
+
+    /// What kernels are made from, in the place of the program's own.
+    pub fn builds(&self) -> &Builds {
+        &self.builds
     }
 
     fn replace_kernel(&mut self, kernel: LiveKernel, kind: Kernel) {
         self.kernel = kernel;
         self.kind = kind;
-        self.images.iter_mut().for_each(|image| image.set = None);
         self.dropped.extend(self.pixels.take());
+        self.begin_anew();
+    }
+
+    /// Nothing of the kernel before is of use.
+    fn begin_anew(&mut self) {
+        self.images.iter_mut().for_each(|image| image.set = None);
         self.timing.pace = Pace::new();
         self.forget_scene();
     }
@@ -255,10 +274,9 @@ impl Canvas {
         is_under_way.then(|| done as f32 / (samples * self.sweep.total()) as f32)
     }
 
-    /// GPU times of the pictures that came to their end since the last call, nanoseconds; nothing where the device has
-    /// no timestamps.
-    pub fn take_finished_ns(&mut self) -> Vec<u64> {
-        self.timing.take_finished_ns()
+    /// GPU times of the pictures that came to their end since the last call; nothing where the device has no timestamps.
+    pub fn take_finished(&mut self) -> Vec<Finished> {
+        self.timing.take_finished()
     }
 
     /// Bytes of primitives uploaded so far.
@@ -319,7 +337,8 @@ impl Canvas {
             timer.iter().for_each(|timer| recorder.stop(timer));
             Ok(())
         })?;
-        let chunk = Chunk { picture: self.begun, blocks, is_last, begun_at: self.begun_at, submitted: Instant::now() };
+        let (picture, sample, begun_at) = (self.begun, self.sample, self.begun_at);
+        let chunk = Chunk { picture, sample, blocks, is_last, begun_at, submitted: Instant::now() };
         self.timing.submitted(place, chunk);
         Ok(())
     }

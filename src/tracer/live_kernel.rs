@@ -8,7 +8,7 @@ use super::parts::Part;
 use super::records::PrimitiveRecords;
 use super::sampling::Sampling;
 use super::{Kernel, TracerError, Work};
-use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Shader};
+use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, shaders};
 use crate::plan::{MOST_PIXELS, Precision};
 use crate::scene::{DEPTH_LIMIT, Scene};
 
@@ -40,17 +40,37 @@ pub(super) struct Begun {
 }
 
 impl LiveKernel {
-    /// `course`: a build of `glsl/course.comp`, for the course kernel.
-    pub fn new(device: &Arc<Device>, kernel: Kernel, course: &Shader) -> Result<Self, GpuError> {
+    pub fn new(device: &Arc<Device>, kernel: Kernel, builds: &Builds) -> Result<Self, GpuError> {
         Ok(match kernel {
             Kernel::Course => {
                 let none = PrimitiveRecords::default();
-                Self::Course(CourseKernel::new(device, course, none, DEPTH_LIMIT, WORKGROUP)?)
+                let shader = builds.of(&shaders::COURSE);
+                Self::Course(CourseKernel::new(device, shader, none, DEPTH_LIMIT, WORKGROUP)?)
             }
             Kernel::Plain | Kernel::Whitted(Precision::F32 | Precision::F64) => {
-                Self::Whitted(LiveWhitted::new(device, kernel))
+                Self::Whitted(LiveWhitted::new(device, kernel, builds))
             }
         })
+    }
+
+    /// The program's own that is built into it, or that a build took the place of.
+    pub fn shader(&self) -> &'static Shader {
+        match self {
+            Self::Course(_) => &shaders::COURSE,
+            Self::Whitted(live) => live.shader(),
+        }
+    }
+
+    /// From other builds from now on; binding sets made before are out of date.
+    ///
+    /// # Errors
+    /// The device does not take them; it stays as it is.
+    pub fn rebuild(&mut self, device: &Arc<Device>, builds: &Builds) -> Result<(), GpuError> {
+        match self {
+            Self::Course(_) => *self = Self::new(device, Kernel::Course, builds)?,
+            Self::Whitted(live) => live.rebuild(builds)?,
+        }
+        Ok(())
     }
 
     /// The blocks that cover so many pixels.

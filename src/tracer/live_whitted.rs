@@ -11,10 +11,10 @@ use super::live_kernel::Begun;
 use super::pixels::check_picture;
 use super::sampling::Sampling;
 use super::whitted::{WhittedScene, check_precision};
-use super::whitted_pipeline::WhittedPipeline;
+use super::whitted_pipeline::{WhittedPipeline, shader_of};
 use super::whitted_records::{SolidRecords, WhittedRecords};
 use super::{Kernel, TracerError, Work};
-use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, Texel, Use};
+use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Texel, Use};
 use crate::plan::{Crowd, Precision};
 use crate::scene::{Primitive, Scene};
 
@@ -22,6 +22,7 @@ use crate::scene::{Primitive, Scene};
 pub(super) struct LiveWhitted {
     kernel: Kernel,
     device: Arc<Device>,
+    builds: Builds,
     begun: Option<OnDevice>,
 }
 
@@ -61,8 +62,25 @@ impl PartialEq for WhittedState {
 }
 
 impl LiveWhitted {
-    pub fn new(device: &Arc<Device>, kernel: Kernel) -> Self {
-        Self { kernel, device: device.clone(), begun: None }
+    pub fn new(device: &Arc<Device>, kernel: Kernel, builds: &Builds) -> Self {
+        Self { kernel, device: device.clone(), builds: builds.clone(), begun: None }
+    }
+
+    /// The program's own that is built into it, or that a build took the place of.
+    pub fn shader(&self) -> &'static Shader {
+        shader_of(&self.device, self.kernel, WORKGROUP)
+    }
+
+    /// From other builds from now on; binding sets made before are out of date.
+    ///
+    /// # Errors
+    /// The device does not take them; it stays as it is.
+    pub fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError> {
+        if let Some(begun) = &mut self.begun {
+            begun.pipeline = begun.pipeline.rebuilt(&self.device, builds)?;
+        }
+        self.builds = builds.clone();
+        Ok(())
     }
 
     /// # Errors
@@ -126,7 +144,7 @@ impl LiveWhitted {
                 begun.needs_binding = true;
                 last.replaced(&self.device, scene, WORKGROUP)?
             }
-            None => WhittedPipeline::new(&self.device, scene, WORKGROUP)?,
+            None => WhittedPipeline::new(&self.device, &self.builds, scene, WORKGROUP)?,
         };
         let (records, primitives) = (scene.records.clone(), primitives.clone());
         self.begun = Some(OnDevice { pipeline, arrays, records, primitives });

@@ -9,7 +9,7 @@ use super::whitted::{WhittedScene, WhittedShot};
 use super::whitted_pipeline::WhittedPipeline;
 use super::whitted_records::WhittedFrame;
 use super::{Kernel, Settings, TracerError};
-use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, StorageImage, shaders};
+use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, StorageImage, shaders};
 use crate::plan::{Crowd, MOST_PIXELS};
 use crate::scene::Scene;
 
@@ -36,7 +36,7 @@ impl SceneKernel {
             }
             Kernel::Plain | Kernel::Whitted(_) => {
                 let scene = whitted_scene(device, scene, settings, max_depth)?;
-                let pipeline = WhittedPipeline::new(device, &scene, workgroup)?;
+                let pipeline = WhittedPipeline::new(device, &Builds::default(), &scene, workgroup)?;
                 Self::Whitted { pipeline, arrays: scene.upload(device)?, shot: scene.shot }
             }
         })

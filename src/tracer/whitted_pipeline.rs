@@ -9,8 +9,8 @@ use super::requirements::Requirements;
 use super::whitted::{Balls, WhittedScene, WhittedShot, scene_bindings, unpacked};
 use super::whitted_records::WhittedFrame;
 use crate::gpu::{
-    BindingKind, BindingSet, ComputePipeline, Device, DeviceKind, Dispatch, GpuError, PipelineDescription, Recorder,
-    Resource, shaders,
+    BindingKind, BindingSet, Builds, ComputePipeline, Device, DeviceKind, Dispatch, GpuError, PipelineDescription,
+    Recorder, Resource, Shader, shaders,
 };
 use crate::plan::{Area, Precision};
 
@@ -28,6 +28,25 @@ pub(super) struct WhittedPipeline {
     pub pixels: u32,
     /// See [`Part::shares`].
     threads: u32,
+    /// What it and those in its place are made from.
+    builds: Builds,
+}
+
+/// The program's own shader for a kernel on a device.
+pub(super) fn shader_of(device: &Device, kernel: Kernel, workgroup: [u32; 2]) -> &'static Shader {
+    match (kernel, has_octets(device, workgroup)) {
+        (Kernel::Whitted(Precision::F64), false) => &shaders::WHITTED_F64,
+        (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_OCTETS,
+        (Kernel::Whitted(Precision::F32), false) => &shaders::WHITTED_F32,
+        (Kernel::Whitted(Precision::F32), true) => &shaders::WHITTED_F32_OCTETS,
+        (Kernel::Plain | Kernel::Course, false) => &shaders::WHITTED_PLAIN,
+        (Kernel::Plain | Kernel::Course, true) => &shaders::WHITTED_PLAIN_OCTETS,
+    }
+}
+
+/// Packets are of invocations along x.
+fn has_octets(device: &Device, workgroup: [u32; 2]) -> bool {
+    device.description().octets && workgroup[0].is_multiple_of(8)
 }
 
 /// Of a driver that runs workgroups on CPUs.
@@ -39,12 +58,18 @@ fn threads(device: &Device) -> u32 {
 }
 
 impl WhittedPipeline {
-    pub fn new(device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
-        Self::made(device, scene.kernel, scene.requirements, scene.shot.where_balls_are(), workgroup)
+    pub fn new(
+        device: &Arc<Device>,
+        builds: &Builds,
+        scene: &WhittedScene,
+        workgroup: [u32; 2],
+    ) -> Result<Self, GpuError> {
+        Self::made(device, builds, scene.kernel, scene.requirements, scene.shot.where_balls_are(), workgroup)
     }
 
     fn made(
         device: &Arc<Device>,
+        builds: &Builds,
         kernel: Kernel,
         requirements: Requirements,
         balls: Balls,
@@ -53,17 +78,8 @@ impl WhittedPipeline {
         let precision = kernel.precision();
         let mut bindings = vec![BindingKind::Pixels];
         bindings.extend(scene_bindings(precision));
-        // Packets are of invocations along x.
-        let octets = device.description().octets && workgroup[0].is_multiple_of(8);
-        let pixels = if octets { requirements.pixels } else { 1 };
-        let shader = match (kernel, octets) {
-            (Kernel::Whitted(Precision::F64), false) => &shaders::WHITTED_F64,
-            (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_OCTETS,
-            (Kernel::Whitted(Precision::F32), false) => &shaders::WHITTED_F32,
-            (Kernel::Whitted(Precision::F32), true) => &shaders::WHITTED_F32_OCTETS,
-            (Kernel::Plain | Kernel::Course, false) => &shaders::WHITTED_PLAIN,
-            (Kernel::Plain | Kernel::Course, true) => &shaders::WHITTED_PLAIN_OCTETS,
-        };
+        let pixels = if has_octets(device, workgroup) { requirements.pixels } else { 1 };
+        let shader = builds.of(shader_of(device, kernel, workgroup));
         let push_constant_bytes = size_of::<WhittedFrame>() as u32;
         let own = Requirements { pixels, ..requirements };
         let with_balls = own.constants(device, precision, workgroup)?;
@@ -76,14 +92,19 @@ impl WhittedPipeline {
             Balls::Somewhere => with_balls.sibling(&description(&without_balls))?,
             Balls::Nowhere | Balls::Everywhere => with_balls.clone(),
         };
-        let threads = threads(device);
-        Ok(Self { with_balls, without_balls, balls, kernel, requirements, workgroup, pixels, threads })
+        let (threads, builds) = (threads(device), builds.clone());
+        Ok(Self { with_balls, without_balls, balls, kernel, requirements, workgroup, pixels, threads, builds })
     }
 
     /// The same for pixels that are traced each by itself.
     pub fn one_by_one(&self, device: &Arc<Device>) -> Result<Self, GpuError> {
         let requirements = Requirements { pixels: 1, ..self.requirements };
-        Self::made(device, self.kernel, requirements, self.balls, self.workgroup)
+        Self::made(device, &self.builds, self.kernel, requirements, self.balls, self.workgroup)
+    }
+
+    /// The same from other builds.
+    pub fn rebuilt(&self, device: &Arc<Device>, builds: &Builds) -> Result<Self, GpuError> {
+        Self::made(device, builds, self.kernel, self.requirements, self.balls, self.workgroup)
     }
 
     /// Whether it draws that scene too, as one made for it would.
@@ -111,7 +132,7 @@ impl WhittedPipeline {
     pub fn replaced(&self, device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
         let is_seen_otherwise = self.pixels_are_served(scene, workgroup) && !self.balls_are_served(scene);
         let balls = if is_seen_otherwise { Balls::Somewhere } else { scene.shot.where_balls_are() };
-        Self::made(device, scene.kernel, scene.requirements, balls, workgroup)
+        Self::made(device, &self.builds, scene.kernel, scene.requirements, balls, workgroup)
     }
 
     /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 
-use super::preferences::Preferences;
+use super::preferences::{Preferences, UsualKernel};
 use crate::scene::{Light, Material, Projection, Solid, SolidKind};
 use crate::setting::Setting;
 use crate::tracer::Precision;
@@ -86,10 +86,9 @@ pub enum UnsavedAnswer {
 }
 
 /// What draws the picture.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kernel {
     /// The course work's, on the Vulkan device.
-    #[default]
     Course,
     /// The accurate model on the Vulkan device.
     Accurate(Precision),
@@ -97,6 +96,30 @@ pub enum Kernel {
     Reference,
     /// As the settings' file says, on the Vulkan device.
     BySetting(Setting),
+}
+
+impl From<UsualKernel> for Kernel {
+    fn from(usual: UsualKernel) -> Self {
+        match usual {
+            UsualKernel::Course => Self::Course,
+            UsualKernel::WhittedF32 => Self::Accurate(Precision::F32),
+            UsualKernel::WhittedF64 => Self::Accurate(Precision::F64),
+            UsualKernel::Reference => Self::Reference,
+        }
+    }
+}
+
+impl Kernel {
+    /// What the next run can begin with; `None` for what needs a settings' file.
+    pub fn usual(self) -> Option<UsualKernel> {
+        match self {
+            Self::Course => Some(UsualKernel::Course),
+            Self::Accurate(Precision::F32) => Some(UsualKernel::WhittedF32),
+            Self::Accurate(Precision::F64) => Some(UsualKernel::WhittedF64),
+            Self::Reference => Some(UsualKernel::Reference),
+            Self::BySetting(_) => None,
+        }
+    }
 }
 
 /// What the window has to do outside its state.

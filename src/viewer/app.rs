@@ -10,6 +10,7 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
+use super::action::Kernel;
 use super::document::Document;
 use super::preferences::{self, Preferences};
 use super::recovery::Recovery;
@@ -27,9 +28,11 @@ pub struct Options {
     pub validation: Validation,
     /// Prints a line of JSON for every frame that differs from the last.
     pub is_observed: bool,
-    /// Sources of the kernel, compiled anew when they change; in debug builds only.
+    /// Sources of the kernels, compiled anew when they change; in debug builds only.
     pub watched_sources: Option<PathBuf>,
-    /// How to draw, and what the panel offers besides the kernels.
+    /// What draws at first instead of the usual kernel.
+    pub kernel: Option<Kernel>,
+    /// How to draw, before that, and what the panel offers besides the kernels.
     pub setting: Option<Setting>,
     /// Acts as if the device was lost after so many frames.
     pub lose_device_after: Option<u64>,
@@ -94,7 +97,8 @@ pub fn run(document: Document, options: Options, on_start: impl FnOnce(Stopper))
     let folder = options.config_folder.as_deref();
     let remembered = folder.map(|folder| Preferences::load(&preferences::file_in(folder)));
     let (recovery, recovered) = Recovery::new(folder);
-    let state = State::new(document, remembered.unwrap_or_default(), recovered).with_setting(options.setting);
+    let state = State::new(document, remembered.unwrap_or_default(), recovered);
+    let state = state.drawn_by(options.kernel, options.setting);
     let proxy = event_loop.create_proxy();
     on_start(Stopper(proxy.clone()));
     let messages = Messages::default();

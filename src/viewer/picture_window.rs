@@ -16,7 +16,7 @@ use super::app::ViewerError;
 use super::screen::ScreenError;
 use super::swapchain::{Fit, Swapchain};
 use crate::gpu::{
-    Device, GpuError, InFlight, Instance, Messages, Semaphores, Surface, SurfaceTarget, Validation, shaders,
+    Builds, Device, GpuError, InFlight, Instance, Messages, Semaphores, Surface, SurfaceTarget, Validation,
 };
 use crate::scene::Scene;
 use crate::tracer::{Canvas, Kernel, TracerError};
@@ -174,8 +174,7 @@ impl<'d> PictureWindow<'d> {
         if let Some(place) = self.canvases.iter().position(|(known, _)| *known == kernel) {
             return Ok(place);
         }
-        let mut canvas = Canvas::new(&self.device, &shaders::COURSE, self.size)?;
-        canvas.use_kernel(kernel)?;
+        let canvas = Canvas::new(&self.device, kernel, &Builds::default(), self.size)?;
         self.canvases.push((kernel, canvas));
         Ok(self.canvases.len() - 1)
     }
@@ -198,7 +197,7 @@ impl<'d> PictureWindow<'d> {
         self.in_flight.wait_for_all()?;
         let canvas = &mut self.canvases[canvas].1;
         self.in_flight.places().into_iter().try_for_each(|place| canvas.collect(place))?;
-        let gpu_time_ns = canvas.take_finished_ns().last().copied();
+        let gpu_time_ns = canvas.take_finished().last().map(|finished| finished.gpu_time_ns);
         Ok(is_shown.then(|| Shown { gpu_time_ns, wall_time: start.elapsed() }))
     }
 

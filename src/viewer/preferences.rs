@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use directories::ProjectDirs;
 use serde::{Deserialize, Serialize};
 
+use crate::tracer::sampling::MAX_SAMPLES;
 use crate::whole_file::WholeFile;
 
 /// Of the file that is read: a few hundred are enough, and a file gone wrong may have any size.
@@ -45,6 +46,16 @@ pub enum Theme {
     Light,
 }
 
+/// What draws the picture at first, unless the window is asked for another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum UsualKernel {
+    Course,
+    WhittedF32,
+    WhittedF64,
+    Reference,
+}
+
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
@@ -60,6 +71,9 @@ pub struct Preferences {
     pub is_mouse_inverted: bool,
     /// Pictures wait for the display; off in the course's measurements.
     pub waits_for_display: bool,
+    pub kernel: UsualKernel,
+    /// Of each pixel by the accurate kernels, at most: so many there are once nothing has changed for long enough.
+    pub samples: u32,
 }
 
 impl Default for Preferences {
@@ -74,6 +88,9 @@ impl Default for Preferences {
             fly_speed: 3.0,
             is_mouse_inverted: false,
             waits_for_display: true,
+            kernel: UsualKernel::WhittedF32,
+            // Edges look smooth, and a picture at rest is soon done.
+            samples: 16,
         }
     }
 }
@@ -106,6 +123,7 @@ impl Preferences {
                 .filter(|speed| speed.is_finite())
                 .unwrap_or(default.fly_speed)
                 .clamp(0.01, 1000.0),
+            samples: self.samples.clamp(1, MAX_SAMPLES),
             ..self
         }
     }
@@ -136,6 +154,8 @@ mod tests {
             fly_speed: 0.7,
             is_mouse_inverted: true,
             waits_for_display: false,
+            kernel: UsualKernel::Course,
+            samples: 7,
         }
     }
 
@@ -169,7 +189,7 @@ mod tests {
     #[test]
     fn a_damaged_field_does_not_spoil_the_others() {
         let text = "theme = \"light\"\nlanguage = \"klingon\"\nui_scale = [1\nfly_speed = 2\nwindow_size = [-5, 800]\n\
-                    unknown = 7\nis_mouse_inverted = \"yes\"\n\0\u{1}=\nwaits_for_display = false\ntheme";
+                    unknown = 7\nkernel = \"f16\"\nsamples = -1\nis_mouse_inverted = \"yes\"\n\0\u{1}=\nwaits_for_display = false\ntheme";
         let expected =
             Preferences { theme: Theme::Light, fly_speed: 2.0, waits_for_display: false, ..Preferences::default() };
         assert_eq!(Preferences::of_text(text), expected);
@@ -192,9 +212,14 @@ mod tests {
 
     #[test]
     fn numbers_out_of_range_are_brought_into_it() {
-        let text = "ui_scale = 1e300\nfly_speed = -3.0\nwindow_size = [1, 4000000000]";
-        let expected =
-            Preferences { ui_scale: 1.0, fly_speed: 0.01, window_size: [320, 16384], ..Preferences::default() };
+        let text = "ui_scale = 1e300\nfly_speed = -3.0\nwindow_size = [1, 4000000000]\nsamples = 1000";
+        let expected = Preferences {
+            ui_scale: 1.0,
+            fly_speed: 0.01,
+            window_size: [320, 16384],
+            samples: 64,
+            ..Preferences::default()
+        };
         assert_eq!(Preferences::of_text(text), expected);
         let wild = Preferences { ui_scale: 0.1, fly_speed: f64::NAN, ..Preferences::default() }.clamped();
         assert_eq!((wild.ui_scale, wild.fly_speed), (0.5, 3.0));

@@ -1,5 +1,6 @@
 //! The window's picture and widgets on the device: everything that is lost with it, and nothing else.
 
+use std::io;
 use std::sync::Arc;
 
 use egui::epaint::ImageDelta;
@@ -7,8 +8,8 @@ use egui::{ClippedPrimitive, TextureId};
 use egui_ash_renderer::{Options, RenderMode, Renderer, RendererError};
 
 use super::swapchain::{Fit, Swapchain};
-use crate::gpu::{Device, GpuError, InFlight, Instance, Semaphores, Shader, Surface, SurfaceTarget, WidgetMemory};
-use crate::tracer::{Canvas, TracerError};
+use crate::gpu::{Builds, Device, GpuError, InFlight, Instance, Semaphores, Surface, SurfaceTarget, WidgetMemory};
+use crate::tracer::{Canvas, Kernel, Precision, TracerError};
 
 /// Why the window cannot go on.
 #[derive(Debug, thiserror::Error)]
@@ -17,6 +18,9 @@ pub enum ScreenError {
     Tracer(#[from] TracerError),
     #[error("could not draw the widgets: {0}")]
     Widgets(#[from] RendererError),
+    /// Of what scripts are told.
+    #[error("could not write to standard output")]
+    Observer(#[from] io::Error),
 }
 
 impl From<GpuError> for ScreenError {
@@ -74,13 +78,14 @@ impl Screen {
         instance: &Arc<Instance>,
         target: Arc<dyn SurfaceTarget>,
         wanted: Option<&str>,
-        shader: &Shader,
+        builds: &Builds,
         waits_for_display: bool,
     ) -> Result<Self, ScreenError> {
         let surface = Arc::new(Surface::new(instance, &target)?);
         let device = Device::open_for(&surface, wanted)?;
         Ok(Self {
-            canvas: Canvas::new(&device, shader, [1, 1])?,
+            // Nothing is compiled for it yet; the first picture may be asked for by another.
+            canvas: Canvas::new(&device, Kernel::Whitted(Precision::F32), builds, [1, 1])?,
             painter: None,
             swapchain: None,
             in_flight: InFlight::new(&device, "window")?,

@@ -1,26 +1,46 @@
-//! The course's kernel, compiled anew whenever its sources change. In debug builds only: release builds have no
+//! The kernels that draw, compiled anew whenever their sources change. In debug builds only: release builds have no
 //! compiler in them.
 
 use std::borrow::Cow;
+use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, SystemTime};
 
-use crate::gpu::{AS_IT_STANDS, Shader, compile, shaders};
+use crate::gpu::{Shader, compile, shaders, variants};
 
 /// Between two looks at the sources.
 const PERIOD: Duration = Duration::from_millis(200);
 
+/// Every build of the kernels that a window draws by, by their files under `glsl/` without the ending.
+const DRAWING: [(&str, &[Shader]); 2] = [
+    ("course", &[shaders::COURSE]),
+    (
+        "whitted",
+        &[
+            shaders::WHITTED_F32,
+            shaders::WHITTED_F64,
+            shaders::WHITTED_PLAIN,
+            shaders::WHITTED_F32_OCTETS,
+            shaders::WHITTED_F64_OCTETS,
+            shaders::WHITTED_PLAIN_OCTETS,
+        ],
+    ),
+];
+
+/// Of each build of [`DRAWING`]: the shader, or the compiler's messages.
+pub type Outcomes = Vec<Result<Shader, String>>;
+
 /// Watches a folder of sources, such as `glsl/`; dropped, it stops.
 pub struct ShaderWatch {
-    builds: Receiver<Result<Shader, String>>,
+    outcomes: Receiver<Outcomes>,
 }
 
 impl ShaderWatch {
     /// `wake` is called after each build, from another thread.
     pub fn start(sources: PathBuf, wake: impl Fn() + Send + 'static) -> Self {
-        let (sender, builds) = mpsc::channel();
+        let (sender, outcomes) = mpsc::channel();
         std::thread::spawn(move || {
             let mut seen = state_of(&sources);
             loop {
@@ -28,7 +48,7 @@ impl ShaderWatch {
                 let now = state_of(&sources);
                 let is_changed = std::mem::replace(&mut seen, now) != seen;
                 // Nobody listens to a watch that was dropped; it notices at the next change.
-                if is_changed && sender.send(build(&sources)).is_err() {
+                if is_changed && sender.send(build_all(&sources)).is_err() {
                     return;
                 }
                 if is_changed {
@@ -36,18 +56,29 @@ impl ShaderWatch {
                 }
             }
         });
-        Self { builds }
+        Self { outcomes }
     }
 
-    /// What the last change came to: a kernel, or the compiler's messages; `None` since the last call.
-    pub fn take(&self) -> Option<Result<Shader, String>> {
-        self.builds.try_iter().last()
+    /// What the last change came to; `None` since the last call.
+    pub fn take(&self) -> Option<Outcomes> {
+        self.outcomes.try_iter().last()
     }
 }
 
-fn build(sources: &Path) -> Result<Shader, String> {
-    let artifact = compile(sources, Path::new("course.comp"), AS_IT_STANDS, true).map_err(|error| error.to_string())?;
-    Ok(Shader { spirv: Cow::Owned(artifact.as_binary_u8().to_vec()), ..shaders::COURSE })
+fn build_all(sources: &Path) -> Outcomes {
+    let of_kernel = |(kernel, own): (&'static str, &'static [Shader])| {
+        own.iter().map(move |own| build(sources, kernel, own).map_err(|error| error.to_string()))
+    };
+    DRAWING.into_iter().flat_map(of_kernel).collect()
+}
+
+/// As build.rs made one of the program's own.
+fn build(sources: &Path, kernel: &str, own: &Shader) -> Result<Shader, Box<dyn Error>> {
+    let is_own = |suffix: &str| own.name.strip_prefix(kernel) == Some(suffix);
+    let variant = variants(kernel).iter().find(|variant| is_own(variant.suffix));
+    let variant = *variant.ok_or_else(|| format!("{kernel}.comp has no variant {}", own.name))?;
+    let artifact = compile(sources, Path::new(&format!("{kernel}.comp")), variant, true)?;
+    Ok(Shader { spirv: Cow::Owned(artifact.as_binary_u8().to_vec()), ..*own })
 }
 
 /// Every file with its time; editors that write beside and rename change it as well as those that write in place.
@@ -82,25 +113,55 @@ mod tests {
         folder
     }
 
+    /// The first complaint, if there is one, and the names of those that are without.
+    fn sorted(builds: Outcomes) -> (Option<String>, Vec<&'static str>) {
+        let (good, broken): (Vec<_>, Vec<_>) = builds.into_iter().partition(Result::is_ok);
+        let names = good.into_iter().flatten().map(|shader| shader.name).collect();
+        (broken.into_iter().find_map(Result::err), names)
+    }
+
     #[test]
-    fn a_change_is_compiled_and_a_mistake_is_told_with_its_file_and_line() {
+    fn a_change_of_any_kernel_is_compiled_and_a_mistake_is_told_with_its_file_and_line() {
         let folder = copy_of_sources();
         let (sender, woken) = channel();
         let watch = ShaderWatch::start(folder.path().to_owned(), move || sender.send(()).unwrap());
-        let phong = folder.path().join("course/phong.glsl");
-        let whole = fs::read_to_string(&phong).unwrap();
         // A watch that has not looked yet would take the change for the beginning.
         std::thread::sleep(PERIOD * 3);
+        let course = &["course"][..];
+        let whitted = &[
+            "whitted_f32",
+            "whitted_f64",
+            "whitted_plain",
+            "whitted_f32_octets",
+            "whitted_f64_octets",
+            "whitted_plain_octets",
+        ][..];
+        for (file, others) in [("course/phong.glsl", whitted), ("whitted/shade.glsl", course)] {
+            let path = folder.path().join(file);
+            let whole = fs::read_to_string(&path).unwrap();
+            fs::write(&path, format!("broken\n{whole}")).unwrap();
+            woken.recv_timeout(Duration::from_secs(60)).unwrap();
+            let (complaint, good) = sorted(watch.take().unwrap());
+            assert!(complaint.is_some_and(|complaint| complaint.contains(&format!("{file}:"))), "{file}");
+            assert_eq!(good, others, "{file}: the other kernel is as good as it was");
 
-        fs::write(&phong, format!("broken\n{whole}")).unwrap();
-        woken.recv_timeout(Duration::from_secs(60)).unwrap();
-        let messages = watch.take().unwrap().err().unwrap();
-        assert!(messages.contains("phong.glsl:"), "{messages}");
+            fs::write(&path, whole).unwrap();
+            woken.recv_timeout(Duration::from_secs(60)).unwrap();
+            assert_eq!(sorted(watch.take().unwrap()), (None, [course, whitted].concat()));
+            assert!(watch.take().is_none(), "each change once");
+        }
+    }
 
-        fs::write(&phong, whole).unwrap();
-        woken.recv_timeout(Duration::from_secs(60)).unwrap();
-        let shader = watch.take().unwrap().unwrap();
-        assert_eq!(shader.name, "course");
-        assert!(watch.take().is_none(), "each build once");
+    #[test]
+    fn a_build_of_the_same_sources_is_what_the_program_has_in_it() {
+        // From where build.rs named them, for the paths are in what a debugger is told.
+        let builds = build_all(Path::new("glsl"));
+        let own: Vec<_> = DRAWING.iter().flat_map(|(_, own)| *own).collect();
+        assert_eq!(builds.len(), own.len());
+        for (own, build) in own.into_iter().zip(builds) {
+            let build = build.unwrap();
+            assert_eq!((build.name, build.asks_for_float_controls), (own.name, own.asks_for_float_controls));
+            assert!(build.spirv == own.spirv, "{}", own.name);
+        }
     }
 }

@@ -19,8 +19,8 @@ pub struct State {
     pub document: Document,
     pub preferences: Preferences,
     pub kernel: Kernel,
-    /// How finely the accurate kernel traces; see [`State::sampling`].
-    pub accurate_sampling: Sampling,
+    /// Of the accurate kernels: size of the traced picture against the one shown.
+    scale: f64,
     /// Of the settings' file, where there is one.
     pub setting: Option<Setting>,
     /// Traces anew though nothing changes, as measuring needs.
@@ -112,11 +112,12 @@ enum Errand {
 impl State {
     /// With a `recovered` document it begins by asking whether to take that up.
     pub fn new(document: Document, preferences: Preferences, recovered: Option<Document>) -> Self {
+        let preferences = preferences.clamped();
         Self {
             document,
-            preferences: preferences.clamped(),
-            kernel: Kernel::default(),
-            accurate_sampling: Sampling::PLAIN,
+            kernel: preferences.kernel.into(),
+            preferences,
+            scale: Sampling::PLAIN.scale,
             setting: None,
             is_continuous: false,
             is_help_shown: false,
@@ -127,15 +128,20 @@ impl State {
         }
     }
 
-    /// Drawn at first as a settings' file says.
-    pub fn with_setting(self, setting: Option<Setting>) -> Self {
-        Self { kernel: setting.map_or(self.kernel, Kernel::BySetting), setting, ..self }
+    /// Drawn at first as a settings' file says, or else by this kernel, and not by the usual one, which stays that.
+    pub fn drawn_by(self, kernel: Option<Kernel>, setting: Option<Setting>) -> Self {
+        Self { kernel: setting.map(Kernel::BySetting).or(kernel).unwrap_or(self.kernel), setting, ..self }
+    }
+
+    /// How finely the accurate kernels trace once nothing changes.
+    pub fn accurate_sampling(&self) -> Sampling {
+        Sampling { samples: self.preferences.samples, scale: self.scale }
     }
 
     /// How finely the kernel that draws traces; those other than the accurate one know but one way.
     pub fn sampling(&self) -> Sampling {
         match self.kernel {
-            Kernel::Accurate(_) => self.accurate_sampling,
+            Kernel::Accurate(_) => self.accurate_sampling(),
             Kernel::BySetting(Setting { samples, scale, .. }) => Sampling { samples, scale },
             Kernel::Course | Kernel::Reference => Sampling::PLAIN,
         }
@@ -238,12 +244,19 @@ impl State {
             Action::CloseDialog => drop(self.close_dialog()),
 
             Action::SetPreferences(preferences) => self.preferences = preferences.clamped(),
-            Action::SetKernel(kernel) => self.kernel = kernel,
-            Action::SetSampling(sampling) => self.accurate_sampling = sampling,
+            Action::SetKernel(kernel) => self.set_kernel(kernel),
+            Action::SetSampling(Sampling { samples, scale }) => {
+                (self.preferences.samples, self.scale) = (samples, scale);
+            }
             Action::SetContinuous(is_continuous) => self.is_continuous = is_continuous,
             Action::ShowHelp(is_shown) => self.is_help_shown = is_shown,
         }
         Vec::new()
+    }
+
+    fn set_kernel(&mut self, kernel: Kernel) {
+        self.kernel = kernel;
+        self.preferences.kernel = kernel.usual().unwrap_or(self.preferences.kernel);
     }
 
     fn edit(&mut self, edit: impl FnOnce(&mut Document) -> Result<(), Refusal>) {

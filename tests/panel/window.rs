@@ -88,11 +88,12 @@ fn samples_and_scale_are_set_where_the_kernel_has_them_and_stay_in_range() {
     let mut window = open(Language::English);
     let (samples, scale) = ("Scene and camera: samples per pixel", "Scene and camera: render scale");
     let is_enabled = |window: &Window, name: &str| !window.get_by_label(name).accesskit_node().is_disabled();
+    click(&mut window, "Course (Vulkan)");
     assert!(!is_enabled(&window, samples) && !is_enabled(&window, scale), "the course kernel knows but one way");
     click(&mut window, "Accurate f32 (Vulkan)");
     assert!(is_enabled(&window, samples) && is_enabled(&window, scale));
-    assert_eq!(window.state().state.sampling(), Sampling::PLAIN);
-    for (typed, taken) in [("16", 16), ("0", 1), ("1000", 64), ("2.6", 3)] {
+    assert_eq!(window.state().state.sampling(), Sampling { samples: 16, scale: 1.0 }, "until told otherwise");
+    for (typed, taken) in [("5", 5), ("0", 1), ("1000", 64), ("2.6", 3)] {
         type_into(&mut window, samples, typed);
         assert_eq!(window.state().state.sampling().samples, taken, "{typed}");
     }

@@ -26,7 +26,10 @@ fn difference(frame: &Frame, from: &Frame) -> Vec<[f32; 3]> {
 #[track_caller]
 fn saved_and_rendered_alike(desk: &Desk, window: &mut Window, frame: &Frame) -> Scene {
     window.save_as("scene.toml");
-    assert!(desk.render("scene.toml", [frame.width(), frame.height()]) == *frame, "the window draws otherwise");
+    assert!(
+        desk.render_by("course", "scene.toml", [frame.width(), frame.height()]) == *frame,
+        "the window draws otherwise"
+    );
     desk.scene("scene.toml")
 }
 

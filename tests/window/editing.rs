@@ -208,6 +208,8 @@ fn light_depth_projection_and_background_are_edited_too() {
     let size = window.now().picture_size;
     assert!(window.screenshot("window.exr") == desk.render("scene.toml", size));
 
+    window.click("Course (Vulkan)");
+    window.wait_until("the course's kernel", |now| now.kernel == "course" && now.is_whole);
     window.click("Add a light");
     let refused = window.wait_until("the kernel refuses two lights", |now| now.refusal.is_some());
     assert!(refused.lights == 2 && refused.says("The kernel does not draw this scene"), "{}", refused.in_short());

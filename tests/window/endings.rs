@@ -95,6 +95,40 @@ fn size_language_and_speed_are_remembered_by_the_next_run() {
 }
 
 #[test]
+fn the_kernel_and_the_samples_chosen_are_remembered_and_the_course_s_start_is_the_course_s() {
+    let desk = Desk::new(Locale::Russian, SIZE);
+    let mut window = desk.view(&["start"]);
+    assert_eq!(window.now().kernel, "course", "as the course's program began");
+    window.close();
+
+    let mut window = desk.view(&["four"]);
+    assert_eq!(window.now().kernel, "whitted f32", "how the last run began was not chosen");
+    window.fill("Сцена и камера: лучей на пиксель", 3.0);
+    window.click("Точная модель (ЦП)");
+    window.wait_until("it is chosen", |now| now.kernel == "reference" && now.is_finished);
+    window.close();
+
+    std::fs::write(desk.path("plain.toml"), "kernel = \"plain\"\n").unwrap();
+    for (arguments, kernel) in
+        [(&["start"][..], "course"), (&["four", "--settings", "plain.toml"], "setting"), (&["four"], "reference")]
+    {
+        let mut window = desk.view(arguments);
+        assert_eq!(window.now().kernel, kernel, "{arguments:?}");
+        assert_eq!(window.now().value("Сцена и камера: лучей на пиксель"), "3");
+        window.close();
+    }
+}
+
+#[test]
+fn the_window_closes_without_a_word_when_nobody_reads_what_it_tells() {
+    let desk = Desk::new(Locale::English, SIZE);
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let output = desk.program(&["view", "four", "--observe"]).stdout(writer).output().unwrap();
+    assert_eq!((output.status.code(), String::from_utf8(output.stderr).unwrap().as_str()), (Some(141), ""));
+}
+
+#[test]
 fn without_a_display_one_line_names_the_way_without_a_window() {
     let desk = Desk::new(Locale::English, SIZE);
     let output = desk.program(&["view", "start"]).env_remove("DISPLAY").output().unwrap();

@@ -39,7 +39,7 @@ fn frames_are_counted_in_a_window_and_the_table_says_so() {
 fn what_is_measured_is_what_the_window_shows_and_ctrl_c_stops_it() {
     let desk = Desk::new(Locale::English, [700, 500]);
     let size = [320, 138];
-    let rendered = desk.render("grid-sphere-10", size);
+    let rendered = desk.render_by("course", "grid-sphere-10", size);
     let arguments =
         ["fps", "--in-window", "--size", "320x138", "--counts", "10", "--seconds", "600", "--kernel", "course"];
     let mut program = desk.program(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();

@@ -52,7 +52,7 @@ fn the_gallery_s_menu_opens_its_scenes() {
         window.wait_until("it is opened", |now| now.primitives == count);
         let size = window.settle().picture_size;
         let file = format!("{name}.exr");
-        assert!(window.screenshot(&file) == desk.render(name, size), "{name}");
+        assert!(window.screenshot(&file) == desk.render_by("course", name, size), "{name}");
     }
     window.close();
 }
@@ -61,6 +61,8 @@ fn the_gallery_s_menu_opens_its_scenes() {
 fn the_accurate_model_draws_when_it_is_chosen() {
     let desk = Desk::new(Locale::Russian, [560, 300]);
     let mut window = desk.view(&["four"]);
+    window.click("Курсовая (Vulkan)");
+    window.wait_until("the course's", |now| now.kernel == "course" && now.is_whole);
     let course = window.screenshot("course.exr");
     window.click("Точная модель (ЦП)");
     window.wait_until("the other picture", |now| now.kernel == "reference" && now.is_whole);
@@ -76,7 +78,7 @@ fn the_accurate_model_draws_when_it_is_chosen() {
 fn the_accurate_kernel_draws_on_the_device_with_as_many_lights_as_there_are() {
     let desk = Desk::new(Locale::Russian, [560, 300]);
     let mut window = desk.view(&["four"]);
-    window.click("Точная f32 (Vulkan)");
+    window.fill("Сцена и камера: лучей на пиксель", 1.0);
     window.wait_until("it draws", |now| now.kernel == "whitted f32" && now.is_whole);
     let size = window.settle().picture_size;
     assert!(window.screenshot("f32.exr") == desk.render_by("whitted", "four", size));
@@ -95,8 +97,6 @@ fn the_accurate_kernel_draws_on_the_device_with_as_many_lights_as_there_are() {
 fn samples_are_added_while_the_window_rests_and_the_scale_changes_what_is_traced_alone() {
     let desk = Desk::new(Locale::Russian, [560, 300]);
     let mut window = desk.view(&["four"]);
-    window.click("Точная f32 (Vulkan)");
-    window.wait_until("it draws", |now| now.kernel == "whitted f32" && now.is_whole);
     let (size, traced) = (window.settle().picture_size, window.last().pictures_traced);
     window.fill("Сцена и камера: лучей на пиксель", 5.0);
     window.wait_until("all samples", |now| now.is_finished && now.pictures_traced >= traced + 5);
@@ -120,6 +120,29 @@ fn samples_are_added_while_the_window_rests_and_the_scale_changes_what_is_traced
 }
 
 #[test]
+fn the_first_picture_is_refined_while_the_window_rests_and_any_change_begins_with_one_sample() {
+    let desk = Desk::new(Locale::Russian, [560, 300]);
+    let mut window = desk.start(&["four"]);
+    let whole = window.wait_until("the first picture", |now| now.is_whole);
+    assert_eq!((whole.kernel.as_str(), whole.is_finished), ("whitted f32", false), "samples are still to come");
+    let now = window.settle();
+    assert_eq!(now.pictures_traced, 16);
+    assert!(window.screenshot("rest.exr") == desk.render("four", now.picture_size));
+    // The same picture for as long as nothing changes; then the first sample of the next, and the others again.
+    let before = window.settle().pictures_traced;
+    window.click("Следующий примитив");
+    window.wait_until("the sphere is selected", |now| now.selection == Some(0));
+    window.settle();
+    assert_eq!(window.now().pictures_traced, before, "a choice is no change");
+    window.key("Delete");
+    let edited = window.wait_until("the edit is shown", |now| now.primitives == 3 && now.is_whole);
+    assert!(!edited.is_finished, "{}", edited.in_short());
+    window.save_as("three.toml");
+    assert!(window.screenshot("three.exr") == desk.render("three.toml", now.picture_size));
+    window.close();
+}
+
+#[test]
 fn a_settings_file_draws_as_it_does_in_render_until_another_kernel_is_chosen() {
     let desk = Desk::new(Locale::Russian, [560, 300]);
     let setting = "kernel = \"plain\"\nerror = 0.1\nmax_depth = 3\n";
@@ -130,7 +153,7 @@ fn a_settings_file_draws_as_it_does_in_render_until_another_kernel_is_chosen() {
     assert!(window.screenshot("fast.exr") == desk.render_with(&["--settings", "fast.toml"], "corridor", size));
     window.click("Курсовая (Vulkan)");
     window.wait_until("the course's", |now| now.kernel == "course" && now.is_whole);
-    assert!(window.screenshot("course.exr") == desk.render("corridor", size));
+    assert!(window.screenshot("course.exr") == desk.render_by("course", "corridor", size));
     window.click("Файл настроек (Vulkan)");
     window.wait_until("the file's again", |now| now.kernel == "setting" && now.is_whole);
     window.close();

@@ -10,10 +10,21 @@ use crate::tracer::chunks::Pace;
 pub(super) struct Chunk {
     /// Of which picture, by [`Canvas::begun`](super::Canvas).
     pub picture: u64,
+    /// Which of each pixel, from 0.
+    pub sample: u32,
     pub blocks: u64,
     pub is_last: bool,
     pub begun_at: Instant,
     pub submitted: Instant,
+}
+
+/// The time of a picture that came to its end.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Finished {
+    /// Of all its chunks.
+    pub gpu_time_ns: u64,
+    /// Which of each pixel, from 0: the first is a picture by itself, the others are added to it while it rests.
+    pub sample: u32,
 }
 
 #[derive(Default)]
@@ -34,7 +45,7 @@ pub(super) struct Timing {
     pub last_took: Option<Duration>,
     /// The picture whose chunks are coming in, with their GPU time so far; `None` where the device has no timestamps.
     timed: (u64, Option<u64>),
-    finished_ns: Vec<u64>,
+    finished: Vec<Finished>,
 }
 
 impl Timing {
@@ -46,7 +57,7 @@ impl Timing {
             first_of_interest: 0,
             last_took: None,
             timed: (0, Some(0)),
-            finished_ns: Vec::new(),
+            finished: Vec::new(),
         })
     }
 
@@ -62,9 +73,9 @@ impl Timing {
         self.places.iter().any(|place| place.chunk.is_some())
     }
 
-    /// Of the pictures that came to their end since the last call, nanoseconds.
-    pub fn take_finished_ns(&mut self) -> Vec<u64> {
-        std::mem::take(&mut self.finished_ns)
+    /// Of the pictures that came to their end since the last call.
+    pub fn take_finished(&mut self) -> Vec<Finished> {
+        std::mem::take(&mut self.finished)
     }
 
     /// Reads the times of what was submitted from this place of the ring and has ended.
@@ -82,7 +93,7 @@ impl Timing {
         self.timed.1 = self.timed.1.zip(time_ns).map(|(sum, time_ns)| sum + time_ns);
         if chunk.is_last && chunk.picture >= self.first_of_interest {
             self.last_took = Some(chunk.begun_at.elapsed());
-            self.finished_ns.extend(self.timed.1);
+            self.finished.extend(self.timed.1.map(|gpu_time_ns| Finished { gpu_time_ns, sample: chunk.sample }));
         }
         Ok(())
     }

@@ -41,7 +41,7 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>
         show_flight(ui, words, &state.preferences, actions);
         show_kernel(ui, words, state, actions);
         let has_sampling = matches!(state.kernel, Kernel::Accurate(_));
-        ui.add_enabled_ui(has_sampling, |ui| show_sampling(ui, words, state.accurate_sampling, actions));
+        ui.add_enabled_ui(has_sampling, |ui| show_sampling(ui, words, state.accurate_sampling(), actions));
     });
 }
 

@@ -26,7 +26,7 @@ use super::screen::{Screen, ScreenError};
 use super::shader_watch::ShaderWatch;
 use super::state::State;
 use super::{camera_motion, pick};
-use crate::gpu::{Instance, Messages, Shader, SurfaceTarget, shaders};
+use crate::gpu::{Builds, Instance, Messages, SurfaceTarget};
 use crate::scene::Scene;
 
 /// Pixels of a touchpad that count as one notch of a wheel.
@@ -49,8 +49,6 @@ pub(super) struct Session {
     /// When the widgets are to be drawn again.
     widgets_due: Option<Instant>,
     refusal: Option<String>,
-    /// The kernel that draws.
-    shader: Shader,
     shader_error: Option<String>,
     #[cfg(debug_assertions)]
     shader_watch: Option<ShaderWatch>,
@@ -123,7 +121,7 @@ impl Session {
         messages: Messages,
         proxy: EventLoopProxy<Wake>,
     ) -> Result<Self, ScreenError> {
-        let screen = open_screen(&window, &state, &options, &shaders::COURSE, &messages)?;
+        let screen = open_screen(&window, &state, &options, &Builds::default(), &messages)?;
         let (context, egui) = new_egui(&window, options.is_observed);
         Ok(Self {
             messages,
@@ -136,7 +134,6 @@ impl Session {
             frame_times: FrameTimes::default(),
             widgets_due: Some(Instant::now()),
             refusal: None,
-            shader: shaders::COURSE,
             shader_error: None,
             #[cfg(debug_assertions)]
             shader_watch: watch(&options, &proxy),
@@ -327,13 +324,13 @@ fn open_screen(
     window: &Arc<Window>,
     state: &State,
     options: &Options,
-    shader: &Shader,
+    builds: &Builds,
     messages: &Messages,
 ) -> Result<Screen, ScreenError> {
     let target: Arc<dyn SurfaceTarget> = window.clone();
     let waits_for_display = state.preferences.waits_for_display;
     let instance = Instance::for_window(options.validation, &*target, messages)?;
-    Screen::new(&instance, target, options.device.as_deref(), shader, waits_for_display)
+    Screen::new(&instance, target, options.device.as_deref(), builds, waits_for_display)
 }
 
 #[cfg(debug_assertions)]

@@ -1,5 +1,6 @@
 //! From what the window knows to what it shows.
 
+use std::io;
 use std::time::{Duration, Instant};
 
 use super::super::action::Kernel;
@@ -30,10 +31,9 @@ impl Session {
             Err(error) if error.is_device_lost() && !self.losses.is_fresh => {
                 self.keep_work();
                 self.losses = Losses { count: self.losses.count + 1, is_fresh: true };
-                // The window cannot serve two.
-                self.screen = None;
-                self.screen =
-                    Some(open_screen(&self.window, &self.state, &self.options, &self.shader, &self.messages)?);
+                // The window cannot serve two: the old one is gone before the new one is made.
+                let builds = self.screen.take().map(|screen| screen.canvas.builds().clone()).unwrap_or_default();
+                self.screen = Some(open_screen(&self.window, &self.state, &self.options, &builds, &self.messages)?);
                 // The new device has none of the textures that the old context has told of.
                 (self.context, self.egui) = new_egui(&self.window, self.options.is_observed);
                 self.reference = Reference::default();
@@ -97,12 +97,12 @@ impl Session {
         let (mut widgets, observation, repaint_delay) = self.run_widgets();
         self.widgets_due = Instant::now().checked_add(repaint_delay);
         #[cfg(debug_assertions)]
-        self.take_kernel();
+        self.take_kernels();
         self.ask_for_picture()?;
         self.present(&mut widgets)?;
         self.take_screenshots()?;
         self.show_title();
-        self.observe(observation);
+        self.observe(observation)?;
         let is_next_due = self.state.is_continuous && self.state.kernel != Kernel::Reference && self.is_whole();
         if (self.is_whole(), self.is_finished()) != stage_before || is_next_due {
             // The widgets have told of what was, or a screenshot has held up the next picture.
@@ -119,9 +119,11 @@ impl Session {
     /// Takes in the times of the pictures that came to their end; whether there were any.
     fn take_times(&mut self) -> bool {
         let Some(screen) = &mut self.screen else { return false };
-        let finished = screen.canvas.take_finished_ns();
+        let finished = screen.canvas.take_finished();
         self.pictures_traced += finished.len() as u64;
-        finished.iter().for_each(|time_ns| self.frame_times.push(*time_ns));
+        // How fast pictures follow each other: what is added to one at rest holds up none.
+        let pictures = finished.iter().filter(|finished| finished.sample == 0);
+        pictures.for_each(|finished| self.frame_times.push(finished.gpu_time_ns));
         self.losses.is_fresh &= finished.is_empty();
         !finished.is_empty()
     }
@@ -275,11 +277,11 @@ impl Session {
         }
     }
 
-    fn observe(&mut self, observation: Option<Observation>) {
+    fn observe(&mut self, observation: Option<Observation>) -> io::Result<()> {
         let (is_whole, is_finished) = (self.is_whole(), self.is_finished());
         let (Some(observer), Some(mut observation), Some(screen)) = (&mut self.observer, observation, &self.screen)
         else {
-            return;
+            return Ok(());
         };
         let size = self.window.inner_size();
         observation.window = [size.width, size.height];
@@ -293,10 +295,7 @@ impl Session {
         observation.refusal = self.refusal.clone();
         observation.device_losses = self.losses.count;
         observation.validation_messages = self.messages.count();
-        if observer.tell(observation).is_err() {
-            // Whoever listened has gone.
-            self.observer = None;
-        }
+        observer.tell(observation)
     }
 
     fn next_frame(&self) -> NextFrame {

@@ -13,17 +13,17 @@ use crate::scene::Scene;
 use crate::tracer::{self, Canvas, TracerError, Work, limits_of};
 
 impl Session {
-    /// A kernel compiled meanwhile takes the last one's place; a broken one is told of, and the last good one goes on.
+    /// Kernels compiled meanwhile take the last ones' places; of a broken one is told, and its last good build goes on.
     #[cfg(debug_assertions)]
-    pub(super) fn take_kernel(&mut self) {
-        let Some(build) = self.shader_watch.as_ref().and_then(|watch| watch.take()) else { return };
+    pub(super) fn take_kernels(&mut self) {
+        let Some(builds) = self.shader_watch.as_ref().and_then(|watch| watch.take()) else { return };
         let Some(screen) = &mut self.screen else { return };
-        let replaced = build.and_then(|shader| {
-            screen.canvas.replace_shader(&shader).map_err(|error| error.to_string())?;
-            self.shader = shader;
-            Ok(())
+        let replaced = builds.into_iter().map(|build| {
+            let replaced = screen.canvas.replace_shader(build?);
+            replaced.map_err(|error| error.to_string())
         });
-        self.shader_error = replaced.err();
+        // The builds of one kernel have the same mistakes.
+        self.shader_error = replaced.filter_map(Result::err).reduce(|first, _| first);
         // The widgets of this frame are drawn already.
         self.wake();
     }

@@ -3,7 +3,9 @@ use proptest::prelude::*;
 use tempfile::TempDir;
 
 use super::*;
+use crate::plan::Precision;
 use crate::scene::{COURSE_PRIMITIVE_LIMIT, Camera, Light, Material, Projection, Solid, SolidKind};
+use crate::viewer::preferences::UsualKernel;
 
 fn start() -> State {
     State::new(Document::new(Scene::default(), None), Preferences::default(), None)
@@ -105,12 +107,43 @@ fn actions_under_a_dialog_are_ignored_but_the_window_s_settings() {
     state.apply(Action::SetSampling(sampling));
     assert_eq!((state.kernel, state.is_continuous), (Kernel::Reference, true));
     assert_eq!(
-        (state.accurate_sampling, state.sampling()),
+        (state.accurate_sampling(), state.sampling()),
         (sampling, Sampling::PLAIN),
         "the reference has its own way"
     );
     state.apply(Action::CloseDialog);
     assert_eq!(state.dialog, None);
+}
+
+#[test]
+fn the_first_kernel_is_the_accurate_one_with_samples_to_come() {
+    assert_eq!(start().kernel, Kernel::Accurate(Precision::F32));
+    assert_eq!(start().sampling(), Sampling { samples: 16, scale: 1.0 });
+}
+
+#[test]
+fn a_kernel_and_samples_that_are_chosen_are_those_of_the_next_run() {
+    let mut state = start();
+    for kernel in [Kernel::Course, Kernel::Accurate(Precision::F64), Kernel::Reference] {
+        state.apply(Action::SetKernel(kernel));
+        let next = State::new(Document::new(Scene::default(), None), state.preferences.clone(), None);
+        assert_eq!(next.kernel, kernel);
+    }
+    state.apply(Action::SetSampling(Sampling { samples: 64, scale: 0.5 }));
+    let next = State::new(Document::new(Scene::default(), None), state.preferences.clone(), None);
+    assert_eq!(next.accurate_sampling(), Sampling { samples: 64, scale: 1.0 });
+}
+
+#[test]
+fn what_a_run_is_asked_to_begin_with_is_not_remembered_until_it_is_chosen() {
+    let course = || start().drawn_by(Some(Kernel::Course), None);
+    assert_eq!((course().kernel, course().preferences.kernel), (Kernel::Course, UsualKernel::WhittedF32));
+    let setting = Setting::default();
+    let mut state = start().drawn_by(Some(Kernel::Course), Some(setting));
+    assert_eq!(state.kernel, Kernel::BySetting(setting), "the file goes before the scene");
+    state.apply(Action::SetKernel(Kernel::Reference));
+    state.apply(Action::SetKernel(Kernel::BySetting(setting)));
+    assert_eq!(state.preferences.kernel, UsualKernel::Reference, "the next run has no such file");
 }
 
 #[test]

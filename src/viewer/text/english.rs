@@ -82,7 +82,7 @@ pub(super) static WORDS: Words = Words {
         kernel_by_setting: "Settings file (Vulkan)",
         samples: "samples per pixel",
         samples_hint: "Anti-aliasing by the accurate kernels on the Vulkan device: a pixel is the mean of so many rays, \
-            which are added one by one while nothing changes",
+            which are added one by one while nothing changes; with 1, none is added. Remembered for the next start",
         scale: "render scale",
         scale_hint: "The accurate kernels on the Vulkan device trace the picture smaller by this and stretch it \
             (bilinearly) to its place: faster, less sharp",

@@ -112,11 +112,11 @@ impl Desk {
         command
     }
 
-    /// What `zerkalo render` makes of a scene, a file in the folder or a name of the gallery, by the kernel that the
-    /// window starts with.
+    /// What `zerkalo render` makes of a scene, a file in the folder or a name of the gallery, as a window at rest does
+    /// until it is told otherwise: by the accurate kernel, with 16 samples a pixel.
     #[track_caller]
     pub fn render(&self, scene: &str, size: [u32; 2]) -> Frame {
-        self.render_by("course", scene, size)
+        self.render_with(&["--kernel", "whitted", "--precision", "f32", "--samples", "16"], scene, size)
     }
 
     pub fn render_by(&self, kernel: &str, scene: &str, size: [u32; 2]) -> Frame {
