@@ -50,7 +50,7 @@ fn showcase() -> Command {
         eprintln!("zerkalo: no display here, so the showcase goes into a file; see `zerkalo --help`");
         &["zerkalo", "render", "showcase", "--output", "zerkalo.png"]
     };
-    // invariant: a command line without mistakes, as tests/command_line.rs shows.
+    // invariant: a command line without mistakes, as tests/program/command_line.rs shows.
     Cli::parse_from(words).command.expect("it has a command")
 }
 

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, Solid, SolidKind};
 
-use crate::oracle::random::Random;
+use crate::random::Random;
 
 /// The camera looks at the origin from 6 away at solids of all kinds; every second scene is a closed room around both.
 pub fn random_scene(seed: u64) -> Scene {

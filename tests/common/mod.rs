@@ -1,6 +1,4 @@
 //! A device under validation for tests on the GPU.
-#![allow(dead_code, reason = "every test file uses its own part")]
-
 use std::cell::Cell;
 use std::ops::{ControlFlow, Deref};
 use std::sync::Arc;

@@ -1,8 +1,6 @@
 //! An arbitrary-precision judge of single rays, and the bars of NUMERICS.md.
 
-#![allow(dead_code, reason = "each test crate takes what it needs")]
-
-pub mod random;
+pub mod rays;
 mod real;
 mod solid;
 
@@ -60,7 +58,7 @@ impl Subject {
         to_f64(&self.exact.distance(&Vector::new(point)))
     }
 
-    /// The radius of a ball about [`random::middle`] that is about as large as the solid holds.
+    /// The radius of a ball about [`rays::middle`] that is about as large as the solid holds.
     pub fn least_length(&self) -> f64 {
         match self.solid {
             Solid::Sphere { radius, .. } => radius,

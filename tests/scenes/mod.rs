@@ -1,11 +1,9 @@
 //! What the tests of whole pictures are made of.
 
-#![allow(dead_code, reason = "each test crate takes what it needs")]
-
 use std::ops::ControlFlow;
 
 use glam::DVec3;
-use zerkalo::reference::{Image64, Pixel, Ray, World, render};
+use zerkalo::reference::{Image64, render};
 use zerkalo::scene::{Camera, Light, Material, Primitive, Projection, Scene, Solid, SolidKind};
 
 pub fn picture(scene: &Scene, width: u32, height: u32) -> Image64 {
@@ -81,10 +79,6 @@ pub fn mixed_scene() -> Scene {
         primitives,
         ..Scene::default()
     }
-}
-
-pub fn look(scene: &Scene, origin: DVec3, direction: DVec3) -> Pixel {
-    World::new(scene).look_along(Ray { origin, direction: direction.normalize() })
 }
 
 /// The scene `scale` times as large about the world's origin, then moved. A light's ball keeps its size.

@@ -1,0 +1,394 @@
+//! What a plan decides, and that it says why.
+
+use std::ops::ControlFlow;
+
+use crate::scenes::{cube, light, material, mirror, mixed_scene, primitive, scene_of_a_light, sphere};
+use glam::DVec3;
+use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, Wishes};
+use zerkalo::reference::{self, LIGHT_BALL};
+use zerkalo::scene::{Camera, Light, Material, Scene, Solid, SolidKind, gallery};
+use zerkalo::tracer::{KernelFrame, WhittedRecords};
+
+const DEVICE: Limits = Limits { float64: true, max_array_bytes: 1 << 27, max_image_side: 16384, packets: true };
+
+fn exact(scene: &Scene) -> Plan {
+    Plan::for_scene(scene, &Wishes::exact(1621, 701), &DEVICE).unwrap()
+}
+
+fn within(scene: &Scene, error: f64) -> Plan {
+    Plan::for_scene(scene, &Wishes { error, ..Wishes::exact(1621, 701) }, &DEVICE).unwrap()
+}
+
+/// Seen from z = −8, lit by one light.
+fn scene_of(solids: Vec<(Solid, Material)>) -> Scene {
+    let primitives = solids.into_iter().map(|(solid, material)| primitive(solid, material)).collect();
+    let camera = Camera { position: DVec3::NEG_Z * 8.0, ..Camera::default() };
+    Scene { camera, lights: vec![light(3.0, 5.0, -9.0)], primitives, ..Scene::default() }
+}
+
+fn two_balls(material: Material) -> Scene {
+    scene_of(vec![(sphere(DVec3::X, 1.0), material.clone()), (sphere(DVec3::NEG_X * 2.0, 1.0), material)])
+}
+
+fn room(material: Material) -> Scene {
+    let mut scene = scene_of(vec![(cube(DVec3::ZERO, 10.0), material.clone()), (sphere(DVec3::X, 1.0), material)]);
+    scene.max_depth = 200;
+    scene
+}
+
+#[test]
+fn kinds_are_counted_and_those_that_are_absent_are_left_out() {
+    let plan = exact(&mixed_scene());
+    assert_eq!(plan.counts, [2; 4]);
+    let plan = exact(&two_balls(mirror()));
+    assert_eq!(plan.counts, [2, 0, 0, 0]);
+    let lines = plan.lines();
+    for kind in ["boxes", "cylinders", "cones"] {
+        let line = lines.iter().find(|line| line.what == kind).unwrap();
+        assert_eq!((line.choice.as_str(), line.saves.is_some()), ("none", true), "{line:?}");
+    }
+}
+
+#[test]
+fn a_scene_of_nothing_traces_one_generation_without_light() {
+    let plan = exact(&Scene::default());
+    assert_eq!((plan.lights.choice, plan.lights.reason), (0, Reason::NoSolids));
+    assert_eq!((plan.generations.choice, plan.generations.reason), (1, Reason::NoSolids));
+    assert!(!plan.shadows.choice && !plan.highlights.choice);
+}
+
+/// As the reference's pictures show, from any camera and by either window.
+#[test]
+fn balls_out_of_sight_are_those_that_no_picture_shows() {
+    let (mut seen, mut narrow) = (0, 0);
+    for index in 0..400 {
+        let scene = scene_of_a_light(index);
+        let (width, height) = (64, 28);
+        let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &DEVICE).unwrap();
+        let image = reference::render(&scene, width, height, &|_| ControlFlow::Continue(())).unwrap();
+        let shown = (0..).zip(&image.pixels).filter(|(_, pixel)| pixel.first_hit == LIGHT_BALL);
+        let shown: Vec<[u32; 2]> = shown.map(|(i, _)| [i % width, i / width]).collect();
+        assert!(plan.balls.choice == 1 || shown.is_empty(), "{scene:?}");
+        assert_eq!(plan.cuts.balls, plan.balls.choice > 0);
+        let Some(area) = Area::of_balls(&scene, f64::from(width) / f64::from(height), 0.0) else {
+            assert_eq!(plan.balls.choice, 0);
+            continue;
+        };
+        let area = area.pixels([width, height]);
+        let is_in = |pixel: &[u32; 2]| (0..2).all(|axis| area[axis].contains(&pixel[axis]));
+        assert!(shown.iter().all(is_in), "{area:?}: {scene:?}");
+        // A ball between the edges ends within a pixel of its outermost centres, and the area a pixel beyond that.
+        let end = |axis: usize| shown.iter().map(|pixel| pixel[axis] + 1).max().unwrap_or_default();
+        let start = |axis: usize| shown.iter().map(|pixel| pixel[axis]).min().unwrap_or_default();
+        if (0..2).all(|axis| start(axis) > 0 && end(axis) < [width, height][axis]) {
+            let is_narrow = |axis: usize| start(axis) - area[axis].start <= 2 && area[axis].end - end(axis) <= 2;
+            assert!(is_narrow(0) && is_narrow(1), "{area:?}: {scene:?}");
+            narrow += 1;
+        }
+        seen += usize::from(!shown.is_empty());
+    }
+    assert!((50..350).contains(&seen) && narrow > 20, "{seen} and {narrow} of 400 are a poor choice");
+}
+
+#[test]
+fn lights_matter_where_some_surface_sends_some_of_them_back() {
+    let plan = exact(&two_balls(material(0.1, 0.5, 0.0)));
+    assert_eq!((plan.lights.choice, plan.lights.reason), (1, Reason::LightsMatter { lights: 1, dark: 0 }));
+
+    let mut none = two_balls(material(0.1, 0.5, 0.5));
+    none.lights.clear();
+    assert_eq!((exact(&none).lights.choice, exact(&none).lights.reason), (0, Reason::NoLights));
+
+    let mut dark = two_balls(material(0.1, 0.5, 0.5));
+    dark.lights.push(Light { intensity: DVec3::ZERO, ..light(0.0, 2.0, 0.0) });
+    let plan = exact(&dark);
+    let seen = Reason::BallsInSight { lights: 2, seen: 1 };
+    assert_eq!(
+        (plan.balls.choice, plan.balls.reason),
+        (1, seen),
+        "a dark ball is still seen, one behind the camera is not"
+    );
+    assert_eq!((plan.lights.choice, plan.lights.reason), (1, Reason::LightsMatter { lights: 2, dark: 1 }));
+
+    let black = exact(&two_balls(material(0.7, 0.0, 0.0)));
+    assert_eq!((black.lights.choice, black.lights.reason), (0, Reason::NothingTakesLight { lights: 1 }));
+    assert_eq!((black.shadows.choice, black.shadows.reason), (false, Reason::NothingIsLit));
+
+    // Red light on surfaces that send back only blue.
+    let mut red = two_balls(Material { color: DVec3::Z, ..material(0.1, 0.5, 0.0) });
+    red.lights[0].intensity = DVec3::X;
+    assert_eq!(exact(&red).lights.choice, 0);
+}
+
+#[test]
+fn one_convex_solid_casts_no_shadow_on_itself_seen_from_outside() {
+    let turned = Solid::Box { center: DVec3::X, half_size: DVec3::ONE, rotation_degrees: DVec3::new(10.0, 20.0, 30.0) };
+    let slanted = DVec3::new(0.48, 0.6, 0.64);
+    let solids = [
+        sphere(DVec3::X, 1.0),
+        turned,
+        Solid::Cylinder { ends: [-2.0 * slanted, slanted], radius: 0.5 },
+        Solid::Cone { apex: DVec3::Y, axis: slanted, height: 2.0, half_angle_degrees: 30.0 },
+    ];
+    for solid in solids {
+        let scene = scene_of(vec![(solid.clone(), material(0.1, 0.5, 0.5))]);
+        let plan = exact(&scene);
+        assert_eq!((plan.shadows.choice, plan.shadows.reason), (false, Reason::LoneSolidShadowsNothing), "{solid:?}");
+        assert_eq!(plan.generations.choice, 2, "it mirrors the background");
+        let mut inside = scene.clone();
+        inside.camera.position = match solid {
+            Solid::Cone { apex, axis, height, .. } => apex + 0.5 * height * axis,
+            ref solid => solid.position(),
+        };
+        assert!(exact(&inside).shadows.choice, "from inside the solid hides a light outside: {solid:?}");
+        assert_eq!(exact(&inside).generations.choice, 20);
+        let mut two = scene.clone();
+        two.primitives.push(primitive(sphere(DVec3::Y * 50.0, 1.0), mirror()));
+        assert!(exact(&two).shadows.choice);
+    }
+    // On the surface, to the rounding of a kernel.
+    let mut on = scene_of(vec![(sphere(DVec3::ZERO, 1.0), material(0.1, 0.5, 0.5))]);
+    on.camera.position = DVec3::NEG_Z * (1.0 + 1e-6);
+    assert!(exact(&on).shadows.choice);
+}
+
+#[test]
+fn highlights_need_a_specular_material_and_a_light() {
+    let plan = exact(&two_balls(material(0.1, 0.5, 0.2)));
+    assert_eq!((plan.highlights.choice, plan.highlights.reason), (true, Reason::SomethingIsSpecular));
+    let plan = exact(&two_balls(material(0.1, 0.5, 0.0)));
+    assert_eq!((plan.highlights.choice, plan.highlights.reason), (false, Reason::NothingIsSpecular));
+    assert!(plan.lines().iter().any(|line| line.what == "highlights" && line.saves.is_some()));
+}
+
+#[test]
+fn generations_are_those_that_can_add_light() {
+    let specular = two_balls(material(0.1, 0.5, 0.2));
+    assert_eq!((exact(&specular).generations.choice, exact(&specular).generations.reason), (20, Reason::SceneSays));
+    let asked = Wishes { max_depth: Some(7), ..Wishes::exact(8, 8) };
+    let plan = Plan::for_scene(&specular, &asked, &DEVICE).unwrap();
+    assert_eq!((plan.generations.choice, plan.generations.reason), (7, Reason::Asked));
+
+    let matt = exact(&two_balls(material(0.1, 0.5, 0.0)));
+    assert_eq!((matt.generations.choice, matt.generations.reason), (1, Reason::NothingIsSpecular));
+    let mut flat = two_balls(material(0.1, 0.5, 0.0));
+    flat.max_depth = 1;
+    assert_eq!(exact(&flat).generations.reason, Reason::SceneSays, "nothing is saved there");
+
+    let mut black = two_balls(mirror());
+    (black.background, black.lights) = (DVec3::ZERO, vec![]);
+    assert_eq!((exact(&black).generations.choice, exact(&black).generations.reason), (1, Reason::ReflectionsAreBlack));
+
+    let mut lone = scene_of(vec![(sphere(DVec3::ZERO, 1.0), material(0.1, 0.5, 0.5))]);
+    assert_eq!(exact(&lone).generations.reason, Reason::LoneSolidMirrorsBackground);
+    lone.background = DVec3::ZERO;
+    assert_eq!((exact(&lone).generations.choice, exact(&lone).generations.reason), (1, Reason::ReflectionsAreBlack));
+}
+
+#[test]
+fn boxes_are_upright_unless_one_is_turned() {
+    let plain = material(0.1, 0.5, 0.0);
+    assert_eq!(exact(&two_balls(plain.clone())).upright_boxes.reason, Reason::NoBoxes);
+    let mut boxes = scene_of(vec![(cube(DVec3::ZERO, 1.0), plain.clone()), (cube(DVec3::X * 3.0, 1.0), plain.clone())]);
+    assert_eq!((exact(&boxes).upright_boxes.choice, exact(&boxes).upright_boxes.reason), (true, Reason::NoBoxTurned));
+    let turn_by = |scene: &mut Scene, degrees: DVec3| {
+        if let Solid::Box { rotation_degrees, .. } = &mut scene.primitives[1].solid {
+            *rotation_degrees = degrees;
+        }
+    };
+    turn_by(&mut boxes, DVec3::new(360.0, -720.0, 0.0));
+    assert!(exact(&boxes).upright_boxes.choice, "a whole turn is none");
+    turn_by(&mut boxes, DVec3::new(0.0, 1e-9, 0.0));
+    let plan = exact(&boxes);
+    assert!(!plan.upright_boxes.choice);
+    assert_eq!(plan.upright_boxes.reason, Reason::BoxesTurned { boxes: 2, turned: 1 });
+}
+
+#[test]
+fn a_precision_asked_for_is_taken_or_refused() {
+    let scene = mixed_scene();
+    for precision in [Precision::F32, Precision::F64] {
+        let wishes = Wishes { precision: Some(precision), error: 1e-5, ..Wishes::exact(8, 8) };
+        let plan = Plan::for_scene(&scene, &wishes, &DEVICE).unwrap();
+        assert_eq!((plan.precision.choice, plan.precision.reason), (precision, Reason::Asked));
+    }
+    let wishes = Wishes { precision: Some(Precision::F64), ..Wishes::exact(8, 8) };
+    assert_eq!(Plan::for_scene(&scene, &wishes, &Limits::PROMISED), Err(PlanError::NoFloat64));
+}
+
+#[test]
+fn f64_is_chosen_where_f32_is_not_known_to_keep_the_error() {
+    let scene = mixed_scene();
+    let precision = |scene: &Scene, error| within(scene, error).precision;
+    assert!(matches!(exact(&scene).precision.reason, Reason::RoundingIsNoCut { .. }));
+    assert_eq!(exact(&scene).precision.choice, Precision::F32);
+
+    let enough = precision(&scene, 1.0 / 510.0);
+    assert_eq!(enough.choice, Precision::F32);
+    let Reason::RoundingIsWithinError { shift_pixels, .. } = enough.reason else { panic!("{enough:?}") };
+    assert!(shift_pixels > 0.0 && shift_pixels < 0.01, "{shift_pixels}");
+
+    let finer = precision(&scene, 1.0 / 511.0);
+    assert_eq!((finer.choice, finer.reason), (Precision::F64, Reason::RoundingExceedsError { bar: 1.0 / 510.0 }));
+    let mut bright = scene.clone();
+    bright.lights[0].intensity = DVec3::splat(10.0);
+    assert_eq!(precision(&bright, 1.0 / 510.0).choice, Precision::F64, "rounding grows with the light");
+
+    // A pixel is an angle of 1e-9 there: less than f32 knows a direction by.
+    let mut narrow = scene.clone();
+    narrow.camera.vertical_fov_degrees = 1e-4;
+    let narrow = precision(&narrow, 1.0 / 510.0);
+    assert_eq!(narrow.choice, Precision::F64);
+    assert!(matches!(narrow.reason, Reason::RoundingMovesSilhouettes { shift_pixels } if shift_pixels > 0.5));
+
+    let poor = Wishes { error: 1e-4, ..Wishes::exact(1621, 701) };
+    let poor = Plan::for_scene(&scene, &poor, &Limits::PROMISED).unwrap().precision;
+    assert!(poor.choice == Precision::F32 && matches!(poor.reason, Reason::NoFloat64 { .. }));
+}
+
+#[test]
+fn few_solids_are_tried_one_by_one_in_small_workgroups_and_tiles_fit_the_device() {
+    let plan = exact(&mixed_scene());
+    assert_eq!((plan.structures.choice, plan.workgroup.choice), ([Structure::None; 4], [8, 8]));
+    let tile =
+        |limits: &Limits, scene: &Scene| Plan::for_scene(scene, &Wishes::exact(4000, 4000), limits).unwrap().tile_side;
+    let few = two_balls(material(0.1, 0.5, 0.0));
+    assert_eq!((tile(&DEVICE, &few).choice, tile(&DEVICE, &few).reason), (1024, Reason::LightTiles));
+    assert_eq!(tile(&Limits { max_image_side: 512, ..DEVICE }, &few).choice, 512);
+    let grid = gallery::scene("grid-sphere-100").unwrap();
+    assert_eq!((tile(&DEVICE, &grid).choice, tile(&DEVICE, &grid).reason), (256, Reason::HeavyTiles { largest: 1024 }));
+    let [some, many] = ["cloud-sphere-128", "cloud-sphere-10000"].map(|name| gallery::scene(name).unwrap());
+    assert_eq!(tile(&DEVICE, &some).choice, tile(&DEVICE, &many).choice, "boxes keep rays from most of them");
+}
+
+#[test]
+fn a_scene_fits_the_device_exactly_where_the_kernels_records_do() {
+    let mut scene = gallery::scene("grid-sphere-100").unwrap();
+    scene.primitives.extend(mixed_scene().primitives);
+    for kind in SolidKind::ALL {
+        scene.primitives.push(zerkalo::scene::Primitive::course_default(kind));
+        for precision in [Precision::F32, Precision::F64] {
+            let row_bytes = if precision == Precision::F32 { 16 } else { 32 };
+            let records = WhittedRecords::of(&scene, KernelFrame::of(&scene), precision, [8, 8]);
+            let outlines = records.solids.outlines.len() as u64 * 16;
+            let own = records.buffers().map(|(_, rows)| rows.len() as u64 * row_bytes);
+            let largest = own.into_iter().chain([outlines]).max().unwrap();
+            let wishes = Wishes { precision: Some(precision), ..Wishes::exact(8, 8) };
+            let fits = |max_array_bytes| Plan::for_scene(&scene, &wishes, &Limits { max_array_bytes, ..DEVICE });
+            assert!(fits(largest).is_ok());
+            let error = fits(largest - 1).unwrap_err();
+            assert!(matches!(error, PlanError::TooLarge { bytes, .. } if bytes == largest), "{error}");
+        }
+    }
+}
+
+#[test]
+fn senseless_wishes_are_refused_in_one_line() {
+    let scene = mixed_scene();
+    let exact = Wishes::exact(8, 8);
+    let refused = [
+        Wishes { error: f64::NAN, ..exact.clone() },
+        Wishes { error: -1e-3, ..exact.clone() },
+        Wishes { error: f64::INFINITY, ..exact.clone() },
+        Wishes { max_depth: Some(0), ..exact.clone() },
+        Wishes { max_depth: Some(1001), ..exact.clone() },
+        Wishes { width: 0, ..exact.clone() },
+    ];
+    for wishes in refused {
+        let error = Plan::for_scene(&scene, &wishes, &DEVICE).unwrap_err().to_string();
+        assert!(!error.contains('\n') && !error.is_empty(), "{error}");
+    }
+}
+
+#[test]
+fn without_an_error_nothing_is_cut() {
+    for entry in gallery::entries() {
+        let plan = exact(&gallery::scene(&entry.name).unwrap());
+        assert_eq!(plan.bounds.total(), 0.0);
+        assert_eq!((plan.cuts.least_weight, plan.cuts.least_shadowed), (0.0, 0.0));
+        assert_eq!(plan.cuts.highlights, plan.highlights.choice);
+    }
+}
+
+#[test]
+fn a_closed_room_is_cut_where_its_paths_have_faded() {
+    let scene = room(material(0.1, 0.1, 0.8));
+    let plan = within(&scene, 1.0 / 510.0);
+    // 0.8³⁷ ≈ 2.6e-4 of at most 0.14 + 0.8 more a generation, five times that in all.
+    assert!((30..=42).contains(&plan.generations.choice), "{:?}", plan.generations);
+    assert!(matches!(plan.generations.reason, Reason::PathsFade { of: 200, .. }));
+    assert!(plan.bounds.generations > 0.0 && plan.bounds.shadows > 0.0 && plan.bounds.total() <= 1.0 / 510.0);
+
+    let perfect = within(&room(mirror()), 1.0 / 510.0);
+    assert_eq!((perfect.cuts.least_weight, perfect.generations.choice), (0.0, 200), "its paths never fade");
+    assert!(perfect.bounds.total() <= 1.0 / 510.0);
+}
+
+#[test]
+fn a_larger_error_cuts_no_less() {
+    let scene = room(material(0.1, 0.3, 0.5));
+    let mut last = within(&scene, 1e-12);
+    for error in [1e-9, 1e-6, 1e-4, 1e-3, 1e-2, 0.1, 0.5] {
+        let plan = within(&scene, error);
+        assert!(plan.generations.choice <= last.generations.choice, "{error}");
+        assert!(plan.cuts.least_weight >= last.cuts.least_weight, "{error}");
+        assert!(plan.bounds.total() <= error && plan.bounds.total() > 0.3 * error, "{:?} of {error}", plan.bounds);
+        last = plan;
+    }
+}
+
+#[test]
+fn highlights_go_where_all_of_them_fit_in_the_error() {
+    let faint = two_balls(material(0.1, 0.5, 1e-4));
+    let plan = within(&faint, 1.0 / 510.0);
+    assert!(!plan.highlights.choice && !plan.cuts.highlights);
+    assert!(matches!(plan.highlights.reason, Reason::HighlightsAreFaint { bound } if bound == plan.bounds.highlights));
+    assert!(within(&two_balls(material(0.1, 0.5, 0.1)), 1.0 / 510.0).highlights.choice);
+    assert_eq!(plan.generations.choice, 1, "and so does what is mirrored");
+}
+
+#[test]
+fn the_primary_ray_is_never_cut_however_large_the_error() {
+    let plan = within(&mixed_scene(), 1e30);
+    assert!(plan.cuts.least_weight < 1.0);
+    assert_eq!(plan.generations.choice, 1);
+    assert_eq!(plan.cuts.least_shadowed, f32::MAX, "no shadow ray is traced");
+    assert!(plan.bounds.total() <= 1e30);
+}
+
+#[test]
+fn cuts_smaller_than_an_f32_can_say_are_not_made() {
+    let mut scene = room(material(0.1, 0.3, 0.5));
+    scene.lights[0].intensity = DVec3::splat(3e38);
+    let plan = within(&scene, 1e-3);
+    assert_eq!((plan.cuts.least_weight, plan.bounds.generations), (0.0, 0.0));
+    assert!(plan.bounds.total() <= 1e-3);
+}
+
+#[test]
+fn every_line_is_one_and_says_why() {
+    let mut scenes: Vec<Scene> = gallery::entries().iter().map(|entry| gallery::scene(&entry.name).unwrap()).collect();
+    scenes.extend([Scene::default(), room(mirror()), two_balls(material(0.0, 0.0, 0.0))]);
+    for scene in scenes {
+        for error in [0.0, 1e-4, 0.1] {
+            for line in within(&scene, error).lines() {
+                let texts = [&line.choice, &line.why, line.saves.as_ref().unwrap_or(&line.why)];
+                assert!(texts.iter().all(|text| !text.is_empty() && !text.contains('\n')), "{line:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_hierarchy_has_few_boxes_on_top_and_no_more_levels_than_the_kernel_goes_down() {
+    assert_eq!(Structure::over(32), Structure::None);
+    assert_eq!(Structure::over(33), Structure::Hierarchy { levels: 1 });
+    // One level alone has two groups of boxes at most, more levels have four on top.
+    assert_eq!(Structure::over(128), Structure::Hierarchy { levels: 1 });
+    assert_eq!(Structure::over(129), Structure::Hierarchy { levels: 2 });
+    assert_eq!(Structure::over(2048), Structure::Hierarchy { levels: 2 });
+    assert_eq!(Structure::over(1_000_000), Structure::Hierarchy { levels: 5 });
+    let most = zerkalo::scene::PRIMITIVE_LIMIT;
+    assert_eq!(Structure::over(most), Structure::Hierarchy { levels: Structure::MOST_LEVELS });
+    assert!(most.div_ceil(Structure::GROUP.pow(Structure::MOST_LEVELS)) <= 64);
+}

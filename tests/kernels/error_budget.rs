@@ -1,0 +1,143 @@
+//! An allowed error on the device: pictures by the accurate kernel with a plan's cuts, against its own without them and
+//! against the reference.
+
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+use crate::budget::random_scene;
+use crate::common::TestDevice;
+use crate::random::Random;
+use crate::scenes::picture;
+use glam::DVec3;
+use zerkalo::measure::{Difference, bars};
+use zerkalo::plan::{Crowd, Cuts, Limits, MOST_PIXELS, Plan, Precision, Wishes};
+use zerkalo::scene::Scene;
+use zerkalo::tracer::{Kernel, Settings, Tracer};
+
+const SCENES: u64 = 240;
+const SIZE: [u32; 2] = [24, 16];
+
+fn plan(scene: &Scene, precision: Precision, error: f64) -> Plan {
+    let limits = Limits { float64: true, ..Limits::PROMISED };
+    let wishes = Wishes { precision: Some(precision), error, ..Wishes::exact(SIZE[0], SIZE[1]) };
+    let plan = Plan::for_scene(scene, &wishes, &limits).unwrap();
+    assert!(plan.bounds.total() <= error);
+    plan
+}
+
+/// A tracer for each pipeline that the pictures take: compiling one takes longer than drawing them all.
+struct Easel<'a> {
+    device: &'a TestDevice,
+    tracers: HashMap<(&'static str, [bool; 4], u32), Tracer>,
+}
+
+impl<'a> Easel<'a> {
+    fn new(device: &'a TestDevice) -> Self {
+        Self { device, tracers: HashMap::new() }
+    }
+
+    fn draw(&mut self, scene: &Scene, settings: &Settings) -> Vec<DVec3> {
+        let Cuts { highlights, lights, shadows, reflections, .. } = settings.cuts;
+        let compiled_in = [highlights, lights, shadows, reflections];
+        let depth = settings.max_depth.unwrap_or(scene.max_depth);
+        let pixels = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), depth, MOST_PIXELS);
+        let tracer = match self.tracers.entry((settings.kernel.precision().name(), compiled_in, pixels)) {
+            Entry::Occupied(entry) => {
+                let tracer = entry.into_mut();
+                tracer.take_up(scene, settings).unwrap();
+                tracer
+            }
+            Entry::Vacant(entry) => entry.insert(Tracer::new(self.device, scene, settings).unwrap()),
+        };
+        tracer.render_f64().unwrap()
+    }
+
+    fn draw_exactly(&mut self, scene: &Scene, precision: Precision) -> Vec<DVec3> {
+        self.draw(scene, &Settings { kernel: Kernel::Whitted(precision), ..Settings::new(SIZE[0], SIZE[1]) })
+    }
+
+    fn draw_planned(&mut self, scene: &Scene, plan: &Plan) -> Vec<DVec3> {
+        self.draw(scene, &Settings::planned(plan, SIZE[0], SIZE[1]))
+    }
+}
+
+/// In proportion to the scene's light, for one lit by 1e38 has nothing to cut for 1/510.
+fn relative_error(scene: &Scene, seed: u64) -> f64 {
+    let lights: DVec3 = scene.lights.iter().map(|light| light.intensity).sum();
+    Random(seed ^ 0xb0d6e7).magnitude(-5.0, 0.0) * (lights + scene.background).max_element()
+}
+
+/// What rounding makes of two sums of which one lacks some terms: each term and each sum is rounded, and of what is
+/// summed nothing is negative.
+fn rounding(scene: &Scene, precision: Precision, color: DVec3) -> f64 {
+    let terms = f64::from(scene.max_depth) * (scene.lights.len() as f64 + 8.0);
+    let stored = 2f64.powi(-47);
+    (2.0 * terms * precision.unit_roundoff() + stored) * color.max_element()
+}
+
+/// At every pixel: cuts do not turn rays, so that edges are where they were.
+#[test]
+fn what_the_kernel_leaves_out_changes_no_pixel_by_more_than_the_bound() {
+    let device = TestDevice::open();
+    let mut easel = Easel::new(&device);
+    let (mut changed_scenes, mut largest) = (0, 0.0_f64);
+    for seed in 0..SCENES {
+        let scene = random_scene(seed);
+        let precision = if seed % 3 == 0 { Precision::F64 } else { Precision::F32 };
+        let whole = easel.draw_exactly(&scene, precision);
+        let mut is_changed = false;
+        for error in [1.0 / 510.0, 1.0 / 50.0, relative_error(&scene, seed)] {
+            let plan = plan(&scene, precision, error);
+            let bound = plan.bounds.total();
+            let cut = easel.draw_planned(&scene, &plan);
+            for (&whole, cut) in whole.iter().zip(cut) {
+                let difference = (whole - cut).abs().max_element();
+                let rounding = rounding(&scene, precision, whole);
+                assert!(difference <= bound + rounding, "seed {seed}: {difference} above {bound}: {:?}", plan.cuts);
+                if bound > 0.0 && difference > rounding {
+                    is_changed = true;
+                    largest = largest.max((difference - rounding) / bound);
+                }
+            }
+        }
+        changed_scenes += u32::from(is_changed);
+    }
+    println!("{changed_scenes} of {SCENES} scenes are changed; the largest change is {largest:.3} of its bound");
+    assert!(changed_scenes > 100);
+}
+
+/// Of scenes whose light is about 1, for which the kernel's own bars are set, and whose rays are not spent by rounding.
+#[test]
+fn pictures_within_an_allowed_error_are_the_references_to_that_error() {
+    let device = TestDevice::open();
+    let mut easel = Easel::new(&device);
+    let mut totals = [Difference::default(); 2];
+    let mut bounded = 0;
+    for seed in 0..SCENES {
+        let mut scene = random_scene(seed);
+        scene.max_depth = scene.max_depth.min(4);
+        scene.lights.iter_mut().for_each(|light| light.intensity = light.intensity.min(DVec3::ONE));
+        let truth = picture(&scene, SIZE[0], SIZE[1]);
+        for (total, precision) in totals.iter_mut().zip([Precision::F32, Precision::F64]) {
+            let error = if seed.is_multiple_of(2) { 1.0 / 510.0 } else { 1.0 / 50.0 };
+            let plan = plan(&scene, precision, error);
+            let ours = easel.draw_planned(&scene, &plan);
+            let (bar, _) = bars(precision);
+            let allowed = plan.bounds.total() + bar;
+            let difference = Difference::between(&truth, &ours, allowed, |_| true);
+            if difference.largest > allowed || difference.differing > 0 {
+                println!("seed {seed}, {}, bound {}: {difference:?}", precision.name(), plan.bounds.total());
+            }
+            assert!(difference.largest <= allowed && difference.not_finite == 0, "seed {seed}: {difference:?}");
+            bounded += u32::from(plan.bounds.total() > 0.0);
+            *total = total.plus(difference);
+        }
+    }
+    for (total, precision) in totals.into_iter().zip([Precision::F32, Precision::F64]) {
+        println!("{SCENES} scenes, {}: {total:?}", precision.name());
+        let (_, share) = bars(precision);
+        assert!(total.differing as f64 <= share * total.discontinuities as f64);
+        assert!(total.smooth > 10_000 && total.discontinuities > 10_000);
+    }
+    assert!(bounded > 200, "{bounded} pictures were cut");
+}

@@ -1,0 +1,32 @@
+//! The kernels on a device, through the library.
+
+#[path = "../budget/mod.rs"]
+mod budget;
+#[path = "../common/mod.rs"]
+mod common;
+#[expect(dead_code, reason = "the reference, which is judged by all of it, judges most of what the kernels do")]
+#[path = "../oracle/mod.rs"]
+mod oracle;
+mod probe;
+#[path = "../random/mod.rs"]
+mod random;
+#[path = "../scenes/mod.rs"]
+mod scenes;
+mod spirv_walk;
+
+mod absent_features;
+mod barriers;
+mod canvas;
+mod error_budget;
+mod goldens;
+mod hierarchy;
+mod record_layout;
+mod rendering;
+mod sampling;
+mod sharing;
+mod stability;
+mod validation;
+mod whitted_arithmetic;
+mod whitted_kernel;
+mod whitted_pictures;
+mod whitted_rays;

@@ -1,0 +1,17 @@
+//! The program run as a user runs it, and the scripts around it.
+
+#[path = "../budget/mod.rs"]
+mod budget;
+#[expect(dead_code, reason = "pictures are drawn by the program")]
+#[path = "../common/mod.rs"]
+mod common;
+mod place;
+#[path = "../random/mod.rs"]
+mod random;
+
+mod command_line;
+mod fps;
+mod report;
+mod setup;
+mod trade;
+mod validate;
