@@ -127,13 +127,14 @@ pub fn run(args: &TradeArgs) -> Result<()> {
         outputs.iter().try_for_each(|path| trade.save(path)).map_err(anyhow::Error::from).and(outcome)
     });
     drop(device);
+    // Before anything is printed: nobody may be there to read it, and the file is wanted all the same.
+    let wanted = args.save_settings.as_ref().filter(|_| measured.is_ok());
+    let saved = wanted.map_or(Ok(()), |path| save_answer(&trade, path));
     if !trade.scenes.is_empty() {
         print_line(if args.measuring.json { trade.to_json() } else { trade.to_markdown() }.trim_end())?;
     }
     measured?;
-    if let Some(path) = &args.save_settings {
-        save_answer(&trade, path)?;
-    }
+    saved?;
     refuse_messages(&messages)?;
     unanswered(&trade).map_or(Ok(()), |unanswered| Err(unanswered.into()))
 }
