@@ -1,6 +1,7 @@
 //! The window's picture without the window: traced a chunk at a time, and the same as a whole render, bit for bit.
 
 use crate::common::{TestDevice, render};
+use crate::tracers::Tracers;
 use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::gpu::{Builds, InFlight, Shader, shaders};
@@ -92,13 +93,14 @@ fn its_picture_is_the_tracer_s_bit_for_bit() {
 const ON_DEVICE: [Kernel; 4] =
     [Kernel::Course, Kernel::Plain, Kernel::Whitted(Precision::F32), Kernel::Whitted(Precision::F64)];
 
-fn rendered_by(device: &TestDevice, kernel: Kernel, scene: &Scene, [width, height]: [u32; 2]) -> Frame {
-    render(device, scene, &Settings { kernel, ..Settings::new(width, height) })
+fn rendered_by(tracers: &mut Tracers, kernel: Kernel, scene: &Scene, [width, height]: [u32; 2]) -> Frame {
+    tracers.draw(scene, &Settings { kernel, ..Settings::new(width, height) })
 }
 
 #[test]
 fn every_kernel_s_picture_is_the_tracer_s_bit_for_bit_and_follows_every_edit() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let size = [97, 61];
     let mut easel = Easel::new(&device, size);
     for kernel in ON_DEVICE.into_iter().chain(ON_DEVICE) {
@@ -106,7 +108,7 @@ fn every_kernel_s_picture_is_the_tracer_s_bit_for_bit_and_follows_every_edit() {
         let mut scene = scene("showcase");
         let mut check = |scene: &Scene, what: &str| {
             let (frame, steps) = easel.draw(scene);
-            assert!(steps > 0 && frame == rendered_by(&device, kernel, scene, size), "{kernel:?}: {what}");
+            assert!(steps > 0 && frame == rendered_by(&mut tracers, kernel, scene, size), "{kernel:?}: {what}");
         };
         check(&scene, "as it is");
         scene.camera.position += DVec3::new(0.5, 0.25, -0.5);
@@ -322,9 +324,9 @@ fn each_picture_s_time_is_told_once() {
 
 const ACCURATE: Kernel = Kernel::Whitted(Precision::F32);
 
-fn sampled(device: &TestDevice, scene: &Scene, [width, height]: [u32; 2], sampling: Sampling) -> Frame {
+fn sampled(tracers: &mut Tracers, scene: &Scene, [width, height]: [u32; 2], sampling: Sampling) -> Frame {
     let Sampling { samples, scale } = sampling;
-    render(device, scene, &Settings { kernel: ACCURATE, samples, scale, ..Settings::new(width, height) })
+    tracers.draw(scene, &Settings { kernel: ACCURATE, samples, scale, ..Settings::new(width, height) })
 }
 
 impl Easel {
@@ -344,13 +346,14 @@ impl Easel {
 #[test]
 fn samples_are_added_while_nothing_changes_until_all_are_there() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let size = [97, 61];
     let mut scene = scene("showcase");
     for sampling in [Sampling { samples: 5, scale: 1.0 }, Sampling { samples: 3, scale: 0.5 }] {
         let mut easel = Easel::sampled(&device, size, sampling);
         for _ in 0..2 {
             let (frame, _) = easel.draw(&scene);
-            assert!(frame == sampled(&device, &scene, size, sampling), "{sampling:?}");
+            assert!(frame == sampled(&mut tracers, &scene, size, sampling), "{sampling:?}");
             let uploaded = easel.uploaded(|easel| assert_eq!(easel.draw(&scene).1, 0, "nothing more is traced"));
             assert_eq!(uploaded, 0);
             scene.camera.position.x += 0.25;
@@ -372,6 +375,7 @@ fn times_tell_which_sample_they_are_of() {
 #[test]
 fn a_change_among_the_samples_begins_again_from_the_first() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let (size, sampling) = ([97, 61], Sampling { samples: 6, scale: 1.0 });
     let mut easel = Easel::sampled(&device, size, sampling);
     let mut scene = scene("showcase");
@@ -383,18 +387,19 @@ fn a_change_among_the_samples_begins_again_from_the_first() {
         }
         // One sample of each pixel is a picture of the scene already.
         let first = Sampling { samples: 1, ..sampling };
-        assert!(round > 0 || easel.shown() == sampled(&device, &scene, size, first));
+        assert!(round > 0 || easel.shown() == sampled(&mut tracers, &scene, size, first));
         (0..round).for_each(|_| easel.step());
         assert!(!easel.canvas.is_finished() && easel.canvas.progress().is_some_and(|share| share < 1.0));
         scene.camera.position.y += 0.125;
     }
     let (frame, _) = easel.draw(&scene);
-    assert!(easel.canvas.is_finished() && frame == sampled(&device, &scene, size, sampling));
+    assert!(easel.canvas.is_finished() && frame == sampled(&mut tracers, &scene, size, sampling));
 }
 
 #[test]
 fn other_samples_and_another_scale_are_another_picture() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let size = [90, 70];
     let scene = scene("four");
     let mut easel = Easel::sampled(&device, size, Sampling { samples: 4, scale: 1.0 });
@@ -403,14 +408,14 @@ fn other_samples_and_another_scale_are_another_picture() {
         easel.set(sampling);
         let uploaded = easel.uploaded(|easel| {
             let (frame, steps) = easel.draw(&scene);
-            assert!(steps > 0 && frame == sampled(&device, &scene, size, sampling), "{sampling:?}");
+            assert!(steps > 0 && frame == sampled(&mut tracers, &scene, size, sampling), "{sampling:?}");
         });
         assert!(uploaded == 0 || (samples, scale) == (4, 1.0), "the scene is there already");
         assert_eq!(easel.canvas.size(), size);
     }
     easel.set(Sampling { samples: 1, scale: 0.5 });
     easel.canvas.resize(&mut easel.in_flight, [33, 21]).unwrap();
-    assert!(easel.draw(&scene).0 == sampled(&device, &scene, [33, 21], Sampling { samples: 1, scale: 0.5 }));
+    assert!(easel.draw(&scene).0 == sampled(&mut tracers, &scene, [33, 21], Sampling { samples: 1, scale: 0.5 }));
     assert!(easel.canvas.set_sampling(&mut easel.in_flight, Sampling { samples: 65, scale: 1.0 }).is_err());
 
     // A picture from elsewhere is of the canvas's size, and the course kernel knows no other.

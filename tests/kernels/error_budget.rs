@@ -1,18 +1,16 @@
 //! An allowed error on the device: pictures by the accurate kernel with a plan's cuts, against its own without them and
 //! against the reference.
 
-use std::collections::HashMap;
-use std::collections::hash_map::Entry;
-
 use crate::budget::random_scene;
 use crate::common::TestDevice;
 use crate::random::Random;
 use crate::scenes::picture;
+use crate::tracers::Tracers;
 use glam::DVec3;
 use zerkalo::measure::{Difference, bars};
-use zerkalo::plan::{Crowd, Cuts, Limits, MOST_PIXELS, Plan, Precision, Wishes};
+use zerkalo::plan::{Limits, Plan, Precision, Wishes};
 use zerkalo::scene::Scene;
-use zerkalo::tracer::{Kernel, Settings, Tracer};
+use zerkalo::tracer::{Kernel, Settings};
 
 const SCENES: u64 = 240;
 const SIZE: [u32; 2] = [24, 16];
@@ -25,40 +23,8 @@ fn plan(scene: &Scene, precision: Precision, error: f64) -> Plan {
     plan
 }
 
-/// A tracer for each pipeline that the pictures take: compiling one takes longer than drawing them all.
-struct Easel<'a> {
-    device: &'a TestDevice,
-    tracers: HashMap<(&'static str, [bool; 4], u32), Tracer>,
-}
-
-impl<'a> Easel<'a> {
-    fn new(device: &'a TestDevice) -> Self {
-        Self { device, tracers: HashMap::new() }
-    }
-
-    fn draw(&mut self, scene: &Scene, settings: &Settings) -> Vec<DVec3> {
-        let Cuts { highlights, lights, shadows, reflections, .. } = settings.cuts;
-        let compiled_in = [highlights, lights, shadows, reflections];
-        let depth = settings.max_depth.unwrap_or(scene.max_depth);
-        let pixels = Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), depth, MOST_PIXELS);
-        let tracer = match self.tracers.entry((settings.kernel.precision().name(), compiled_in, pixels)) {
-            Entry::Occupied(entry) => {
-                let tracer = entry.into_mut();
-                tracer.take_up(scene, settings).unwrap();
-                tracer
-            }
-            Entry::Vacant(entry) => entry.insert(Tracer::new(self.device, scene, settings).unwrap()),
-        };
-        tracer.render_f64().unwrap()
-    }
-
-    fn draw_exactly(&mut self, scene: &Scene, precision: Precision) -> Vec<DVec3> {
-        self.draw(scene, &Settings { kernel: Kernel::Whitted(precision), ..Settings::new(SIZE[0], SIZE[1]) })
-    }
-
-    fn draw_planned(&mut self, scene: &Scene, plan: &Plan) -> Vec<DVec3> {
-        self.draw(scene, &Settings::planned(plan, SIZE[0], SIZE[1]))
-    }
+fn draw_planned(tracers: &mut Tracers, scene: &Scene, plan: &Plan) -> Vec<DVec3> {
+    tracers.draw_f64(scene, &Settings::planned(plan, SIZE[0], SIZE[1]))
 }
 
 /// In proportion to the scene's light, for one lit by 1e38 has nothing to cut for 1/510.
@@ -79,17 +45,18 @@ fn rounding(scene: &Scene, precision: Precision, color: DVec3) -> f64 {
 #[test]
 fn what_the_kernel_leaves_out_changes_no_pixel_by_more_than_the_bound() {
     let device = TestDevice::open();
-    let mut easel = Easel::new(&device);
+    let mut tracers = Tracers::new(&device);
     let (mut changed_scenes, mut largest) = (0, 0.0_f64);
     for seed in 0..SCENES {
         let scene = random_scene(seed);
         let precision = if seed % 3 == 0 { Precision::F64 } else { Precision::F32 };
-        let whole = easel.draw_exactly(&scene, precision);
+        let exact = Settings { kernel: Kernel::Whitted(precision), ..Settings::new(SIZE[0], SIZE[1]) };
+        let whole = tracers.draw_f64(&scene, &exact);
         let mut is_changed = false;
         for error in [1.0 / 510.0, 1.0 / 50.0, relative_error(&scene, seed)] {
             let plan = plan(&scene, precision, error);
             let bound = plan.bounds.total();
-            let cut = easel.draw_planned(&scene, &plan);
+            let cut = draw_planned(&mut tracers, &scene, &plan);
             for (&whole, cut) in whole.iter().zip(cut) {
                 let difference = (whole - cut).abs().max_element();
                 let rounding = rounding(&scene, precision, whole);
@@ -110,7 +77,7 @@ fn what_the_kernel_leaves_out_changes_no_pixel_by_more_than_the_bound() {
 #[test]
 fn pictures_within_an_allowed_error_are_the_references_to_that_error() {
     let device = TestDevice::open();
-    let mut easel = Easel::new(&device);
+    let mut tracers = Tracers::new(&device);
     let mut totals = [Difference::default(); 2];
     let mut bounded = 0;
     for seed in 0..SCENES {
@@ -121,7 +88,7 @@ fn pictures_within_an_allowed_error_are_the_references_to_that_error() {
         for (total, precision) in totals.iter_mut().zip([Precision::F32, Precision::F64]) {
             let error = if seed.is_multiple_of(2) { 1.0 / 510.0 } else { 1.0 / 50.0 };
             let plan = plan(&scene, precision, error);
-            let ours = easel.draw_planned(&scene, &plan);
+            let ours = draw_planned(&mut tracers, &scene, &plan);
             let (bar, _) = bars(precision);
             let allowed = plan.bounds.total() + bar;
             let difference = Difference::between(&truth, &ours, allowed, |_| true);

@@ -2,6 +2,7 @@
 
 use crate::common::{TestDevice, render};
 use crate::scenes::{cube, light, material, picture, primitive, sphere};
+use crate::tracers::Tracers;
 use glam::DVec3;
 use rayon::prelude::*;
 use zerkalo::frame::Frame;
@@ -283,6 +284,7 @@ fn labelled(mut scene: Scene) -> Scene {
 #[test]
 fn solids_seen_first_are_those_of_the_reference_ties_included() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let clouds = ["cloud-3000", "cloud-sphere-400", "cloud-box-400", "cloud-cylinder-400", "cloud-cone-400"].map(made);
     let mut scenes: Vec<Scene> = clouds.into_iter().chain(SolidKind::ALL.map(doubled)).collect();
     scenes.push(made("squares-900"));
@@ -294,7 +296,7 @@ fn solids_seen_first_are_those_of_the_reference_ties_included() {
     for (number, scene) in scenes.into_iter().map(labelled).enumerate() {
         let (width, height) = (160, 96);
         let settings = Settings { kernel: Kernel::Whitted(Precision::F64), ..Settings::new(width, height) };
-        let frame = render(&device, &scene, &settings);
+        let frame = tracers.draw(&scene, &settings);
         let truth = picture(&scene, width, height);
         let pairs: Vec<_> = (frame.pixels().par_iter().map(|&pixel| index_of(pixel)))
             .zip(truth.pixels.par_iter().map(|pixel| match pixel.first_hit {

@@ -13,6 +13,7 @@ mod random;
 #[path = "../scenes/mod.rs"]
 mod scenes;
 mod spirv_walk;
+mod tracers;
 
 mod absent_features;
 mod barriers;

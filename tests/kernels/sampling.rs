@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use crate::common::{TestDevice, render};
 use crate::scenes::{light, mixed_scene, picture, primitive, sphere};
+use crate::tracers::Tracers;
 use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::gpu::{
@@ -32,6 +33,7 @@ fn rmse(frame: &Frame, truth: &[[f64; 3]]) -> f64 {
 #[test]
 fn a_pixel_is_the_mean_of_its_samples_bit_for_bit_and_the_first_is_its_centre() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let size = [5, 3];
     for kernel in [F32, Kernel::Whitted(Precision::F64), Kernel::Plain] {
         for projection in Projection::ALL {
@@ -40,10 +42,10 @@ fn a_pixel_is_the_mean_of_its_samples_bit_for_bit_and_the_first_is_its_centre() 
             scene.lights.push(light(-3.0, 5.0, -8.0));
             // Light above 1 counts in full.
             scene.background = DVec3::new(3.0, 0.5, 0.0);
-            let fine = render(&device, &scene, &settings(kernel, size.map(|side| SUBPIXELS * side)));
+            let fine = tracers.draw(&scene, &settings(kernel, size.map(|side| SUBPIXELS * side)));
             let fine: Vec<_> = fine.rows().collect();
             for samples in [1, 2, 5, 16, 64] {
-                let frame = render(&device, &scene, &Settings { samples, ..settings(kernel, size) });
+                let frame = tracers.draw(&scene, &Settings { samples, ..settings(kernel, size) });
                 for (row, y) in frame.rows().zip(0..) {
                     for (pixel, x) in row.iter().zip(0..) {
                         let mut mean = [0.0_f32; 3];
@@ -75,6 +77,7 @@ fn disk(center: DVec3) -> Scene {
 fn more_samples_are_nearer_to_the_mean_over_the_pixel() {
     const PARTS: u32 = 24;
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let scene = disk(DVec3::new(0.1, 0.05, 0.0));
     let size = [27, 21];
     let fine = picture(&scene, PARTS * size[0], PARTS * size[1]).to_f32();
@@ -84,8 +87,8 @@ fn more_samples_are_nearer_to_the_mean_over_the_pixel() {
         let sum = &mut truth[(y * size[0] + x) as usize];
         (0..3).for_each(|channel| sum[channel] += f64::from(pixel[channel]) / f64::from(PARTS * PARTS));
     }
-    let errors = [1, 4, 16, 64]
-        .map(|samples| rmse(&render(&device, &scene, &Settings { samples, ..settings(F32, size) }), &truth));
+    let errors =
+        [1, 4, 16, 64].map(|samples| rmse(&tracers.draw(&scene, &Settings { samples, ..settings(F32, size) }), &truth));
     println!("RMSE with 1, 4, 16, 64 samples: {errors:?}");
     // For straight edges they are as 1 : 0.49 : 0.16 : 0.054, see `PLACES`; a few dozen pixels lie on the edge here.
     for (pair, falls) in errors.windows(2).zip([0.49, 0.32, 0.34]) {
@@ -159,14 +162,15 @@ fn tolerance(largest: f32) -> f32 {
 #[test]
 fn a_smaller_picture_is_brought_to_size_bilinearly() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     // Of the same shape as the smaller picture, so that this one can be traced by itself.
     for (size, traced_size, scale) in [([64, 32], [32, 16], 0.5), ([60, 40], [15, 10], 0.25), ([40, 30], [32, 24], 0.8)]
     {
         let scene = gallery::scene("four").unwrap();
         for samples in [1, 3] {
-            let traced = render(&device, &scene, &Settings { samples, ..settings(F32, traced_size) });
+            let traced = tracers.draw(&scene, &Settings { samples, ..settings(F32, traced_size) });
             let traced: Vec<_> = traced.rows().map(<[_]>::to_vec).collect();
-            let frame = render(&device, &scene, &Settings { samples, scale, ..settings(F32, size) });
+            let frame = tracers.draw(&scene, &Settings { samples, scale, ..settings(F32, size) });
             for (i, (ours, expected)) in frame.pixels().iter().zip(enlarged(&traced, size)).enumerate() {
                 for (ours, expected) in ours.iter().zip(expected) {
                     assert!((ours - expected).abs() <= tolerance(1.0), "scale {scale}, pixel {i}: {ours} {expected}");
@@ -179,12 +183,13 @@ fn a_smaller_picture_is_brought_to_size_bilinearly() {
 #[test]
 fn the_window_is_the_same_at_every_scale() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     // 0.3 of either side is no whole number of pixels, and of another shape: 1.6 % wider, of which a disk this far from
     // the middle would be moved by half a pixel.
     let size = [101, 53];
     let scene = disk(DVec3::new(2.1, -0.3, 4.0));
-    let middle = |scale| {
-        let frame = render(&device, &scene, &Settings { samples: 64, scale, ..settings(F32, size) });
+    let mut middle = |scale| {
+        let frame = tracers.draw(&scene, &Settings { samples: 64, scale, ..settings(F32, size) });
         let mut sums = DVec3::ZERO;
         for (i, pixel) in (0..).zip(frame.pixels()) {
             sums += f64::from(pixel[1]) * DVec3::new(f64::from(i % size[0]), f64::from(i / size[0]), 1.0);
@@ -203,10 +208,11 @@ fn the_window_is_the_same_at_every_scale() {
 #[test]
 fn a_picture_of_one_colour_stays_that_at_every_scale() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let empty = Scene { lights: vec![], background: DVec3::new(0.1, 2.5, 0.3), ..Scene::default() };
     for size in [[61, 37], [1, 1], [1, 300], [300, 2]] {
         for scale in [0.25, 0.333, 0.5, 0.77, 0.999] {
-            let frame = render(&device, &empty, &Settings { samples: 3, scale, ..settings(F32, size) });
+            let frame = tracers.draw(&empty, &Settings { samples: 3, scale, ..settings(F32, size) });
             assert!(frame.pixels().iter().all(|&pixel| pixel == [0.1, 2.5, 0.3]), "{size:?} at scale {scale}");
         }
     }

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 use crate::common::{TestDevice, render};
 use crate::scenes::{light, material, mirror, mixed_scene, picture, primitive, scene_of_a_light, sphere};
+use crate::tracers::Tracers;
 use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::plan::{Crowd, Cuts};
@@ -135,6 +136,7 @@ fn a_scene_of_nothing_is_its_background_and_a_thousand_spheres_are_drawn() {
 #[test]
 fn mr_no_ray_escapes_from_a_closed_room_of_mirrors() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let slanted = DVec3::new(0.48, 0.6, 0.64);
     let rooms = [
         Solid::Box {
@@ -159,7 +161,7 @@ fn mr_no_ray_escapes_from_a_closed_room_of_mirrors() {
                 max_depth: 200,
                 primitives: vec![primitive(room.clone(), mirror()), primitive(sphere(DVec3::X, 0.3), mirror())],
             };
-            let frame = render(&device, &scene, &settings(precision, 48, 48));
+            let frame = tracers.draw(&scene, &settings(precision, 48, 48));
             let escaped = frame.pixels().iter().filter(|&&pixel| pixel != [0.0; 3]).count();
             assert_eq!(escaped, 0, "{} of {room:?}", precision.name());
         }
@@ -169,13 +171,14 @@ fn mr_no_ray_escapes_from_a_closed_room_of_mirrors() {
 #[test]
 fn it_intensities_up_to_the_largest_f32_stay_finite() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     for precision in PRECISIONS {
         for intensity in [1e30, 3e38, f64::from(f32::MAX)] {
             let mut scene = mixed_scene();
             scene.background = DVec3::splat(intensity);
             scene.lights.iter_mut().for_each(|light| light.intensity = DVec3::splat(intensity));
             scene.primitives.iter_mut().for_each(|primitive| primitive.material = material(1.0, 1.0, 1.0));
-            let frame = render(&device, &scene, &settings(precision, 64, 48));
+            let frame = tracers.draw(&scene, &settings(precision, 64, 48));
             assert!(is_finite(&frame), "{} at {intensity:e}", precision.name());
             assert!(frame.pixels().iter().any(|pixel| f64::from(pixel[0]) >= 0.99 * intensity));
         }
@@ -185,6 +188,7 @@ fn it_intensities_up_to_the_largest_f32_stay_finite() {
 #[test]
 fn lt_a_light_inside_a_solid_or_on_a_surface_gives_finite_pixels() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let cube = Solid::Box { center: DVec3::ZERO, half_size: DVec3::ONE, rotation_degrees: DVec3::ZERO };
     for precision in PRECISIONS {
         for position in [DVec3::ZERO, DVec3::new(0.0, 0.0, -1.0), DVec3::new(0.2, 0.1, -1.0 - 1e-9)] {
@@ -194,7 +198,7 @@ fn lt_a_light_inside_a_solid_or_on_a_surface_gives_finite_pixels() {
                 primitives: vec![primitive(cube.clone(), material(0.1, 0.5, 0.5))],
                 ..Scene::default()
             };
-            assert!(is_finite(&render(&device, &scene, &settings(precision, 65, 65))), "{position}");
+            assert!(is_finite(&tracers.draw(&scene, &settings(precision, 65, 65))), "{position}");
         }
     }
 }
@@ -202,11 +206,12 @@ fn lt_a_light_inside_a_solid_or_on_a_surface_gives_finite_pixels() {
 #[test]
 fn fv_the_narrowest_and_the_widest_views_give_finite_pixels() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     for precision in PRECISIONS {
         for vertical_fov_degrees in [1e-6_f64.to_degrees(), 179.999] {
             let mut scene = mixed_scene();
             scene.camera.vertical_fov_degrees = vertical_fov_degrees;
-            assert!(is_finite(&render(&device, &scene, &settings(precision, 33, 17))), "{vertical_fov_degrees}°");
+            assert!(is_finite(&tracers.draw(&scene, &settings(precision, 33, 17))), "{vertical_fov_degrees}°");
         }
     }
 }
@@ -214,11 +219,12 @@ fn fv_the_narrowest_and_the_widest_views_give_finite_pixels() {
 #[test]
 fn solids_too_small_for_the_precision_give_finite_pixels() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     for precision in PRECISIONS {
         for radius in [1e-12, 1e-30, f64::MIN_POSITIVE / 16.0] {
             let mut scene = mixed_scene();
             scene.primitives.push(primitive(sphere(DVec3::NEG_Z * 5.0, radius), mirror()));
-            assert!(is_finite(&render(&device, &scene, &settings(precision, 33, 33))), "{radius:e}");
+            assert!(is_finite(&tracers.draw(&scene, &settings(precision, 33, 33))), "{radius:e}");
         }
     }
 }

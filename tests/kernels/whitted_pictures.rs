@@ -6,19 +6,19 @@ use std::path::Path;
 use crate::budget;
 use crate::common::TestDevice;
 use crate::scenes::{mixed_scene, moved_and_scaled, picture};
+use crate::tracers::Tracers;
 use glam::DVec3;
 use zerkalo::measure::{Difference, bars};
 use zerkalo::plan::{Limits, Plan, Wishes};
 use zerkalo::reference::LIGHT_BALL;
 use zerkalo::scene::{Light, Projection, Scene, gallery};
-use zerkalo::tracer::{Kernel, Precision, Settings, Tracer};
+use zerkalo::tracer::{Kernel, Precision, Settings};
 
 const SIZE: [u32; 2] = [88, 38];
 
 /// Linear RGB in `f64`.
-fn kernel_picture(device: &TestDevice, scene: &Scene, precision: Precision, [width, height]: [u32; 2]) -> Vec<DVec3> {
-    let settings = Settings { kernel: Kernel::Whitted(precision), ..Settings::new(width, height) };
-    Tracer::new(device, scene, &settings).unwrap().render_f64().unwrap()
+fn kernel_picture(tracers: &mut Tracers, scene: &Scene, precision: Precision, [width, height]: [u32; 2]) -> Vec<DVec3> {
+    tracers.draw_f64(scene, &Settings { kernel: Kernel::Whitted(precision), ..Settings::new(width, height) })
 }
 
 fn golden_scenes() -> Vec<(String, Scene)> {
@@ -36,6 +36,7 @@ fn gallery_scenes() -> Vec<(String, Scene)> {
 
 fn every_picture_is_the_references(scenes: Vec<(String, Scene)>) {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     for projection in Projection::ALL {
         let mut totals = [Difference::default(); 2];
         for (name, scene) in &scenes {
@@ -44,7 +45,7 @@ fn every_picture_is_the_references(scenes: Vec<(String, Scene)>) {
             let truth = picture(&scene, SIZE[0], SIZE[1]);
             for (total, precision) in totals.iter_mut().zip([Precision::F32, Precision::F64]) {
                 let (bar, _) = bars(precision);
-                let ours = kernel_picture(&device, &scene, precision, SIZE);
+                let ours = kernel_picture(&mut tracers, &scene, precision, SIZE);
                 let difference = Difference::between(&truth, &ours, bar, |_| true);
                 if difference.largest > bar || difference.differing > 0 {
                     println!("{name}, {}, {}: {difference:?}", projection.name(), precision.name());
@@ -78,6 +79,7 @@ fn every_goldens_scene_looks_as_the_reference_sees_it() {
 #[test]
 fn pictures_lit_by_several_lights_are_the_references() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let [width, height] = [122, 53];
     let (mut smooth, mut lit) = (0, 0);
     let random = (100..106_u32).map(|seed| {
@@ -97,7 +99,7 @@ fn pictures_lit_by_several_lights_are_the_references() {
         let bar = 32.0 * 6e-8 * 10.0 * 100.0 * 5.0;
         for workgroup in [[8, 8], [4, 16]] {
             let settings = Settings { workgroup, ..Settings::planned(&plan, width, height) };
-            let ours = Tracer::new(&device, &scene, &settings).unwrap().render_f64().unwrap();
+            let ours = tracers.draw_f64(&scene, &settings);
             let difference = Difference::between(&truth, &ours, bar, |_| true);
             let Difference { largest, not_finite, .. } = difference;
             assert!(largest <= bar && not_finite == 0, "scene {number}, {workgroup:?}: {difference:?}");
@@ -112,6 +114,7 @@ fn pictures_lit_by_several_lights_are_the_references() {
 #[test]
 fn a_scene_scaled_by_a_million_or_moved_by_1e5_of_its_size_looks_the_same() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let scene = mixed_scene();
     let [width, height] = [160, 100];
     let original = picture(&scene, width, height);
@@ -125,7 +128,7 @@ fn a_scene_scaled_by_a_million_or_moved_by_1e5_of_its_size_looks_the_same() {
         let truth = picture(moved, width, height);
         for precision in [Precision::F32, Precision::F64] {
             let (largest, share) = bars(precision);
-            let ours = kernel_picture(&device, moved, precision, [width, height]);
+            let ours = kernel_picture(&mut tracers, moved, precision, [width, height]);
             let shows_solid = |index: usize| {
                 truth.pixels[index].first_hit < LIGHT_BALL && original.pixels[index].first_hit < LIGHT_BALL
             };
@@ -144,14 +147,15 @@ fn a_scene_scaled_by_a_million_or_moved_by_1e5_of_its_size_looks_the_same() {
 #[test]
 fn a_scene_scaled_by_a_power_of_two_gives_the_same_bits() {
     let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
     let mut scene = mixed_scene();
     // The camera stays outside of the balls, which have one size in every scene.
     scene.lights.iter_mut().for_each(|light| light.position *= 1e4);
     for precision in [Precision::F32, Precision::F64] {
-        let original = kernel_picture(&device, &scene, precision, SIZE);
+        let original = kernel_picture(&mut tracers, &scene, precision, SIZE);
         for exponent in [-20, -1, 1, 20] {
             let scaled = moved_and_scaled(&scene, DVec3::ZERO, 2f64.powi(exponent));
-            assert!(kernel_picture(&device, &scaled, precision, SIZE) == original, "2^{exponent}");
+            assert!(kernel_picture(&mut tracers, &scaled, precision, SIZE) == original, "2^{exponent}");
         }
     }
 }

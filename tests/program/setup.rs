@@ -1,11 +1,11 @@
-//! The shell scripts that a new machine depends on.
+//! The shell scripts that new machines and tests on others depend on.
 
 use std::path::Path;
 use std::process::Command;
 
 #[test]
 fn scripts_pass_shellcheck() {
-    for script in ["setup.sh", ".ci/run"] {
+    for script in ["setup.sh", ".ci/run", "tests/distributions/run"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(script);
         let check = Command::new("shellcheck")
             .arg(path)

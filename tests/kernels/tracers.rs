@@ -1,0 +1,74 @@
+//! Pictures of many scenes by few pipelines: to make one takes longer than to draw a small picture.
+
+use std::ops::ControlFlow;
+
+use glam::DVec3;
+use zerkalo::frame::Frame;
+use zerkalo::plan::{Crowd, MOST_PIXELS};
+use zerkalo::scene::Scene;
+use zerkalo::tracer::{Kernel, KernelFrame, Requirements, Settings, Tracer, WhittedRecords};
+
+use crate::common::TestDevice;
+
+/// One for each pipeline that the pictures take.
+pub struct Tracers<'a> {
+    device: &'a TestDevice,
+    kept: Vec<(Made, Tracer)>,
+}
+
+/// What a tracer is made for and keeps from scene to scene.
+#[derive(PartialEq)]
+struct Made {
+    kernel: Kernel,
+    requirements: Requirements,
+    size: [u32; 2],
+    workgroup: [u32; 2],
+    without_boxes: bool,
+    has_samples: bool,
+}
+
+impl Made {
+    fn of(scene: &Scene, settings: &Settings) -> Self {
+        let &Settings { kernel, width, height, workgroup, without_boxes, samples, pixels, .. } = settings;
+        let depth = settings.max_depth.unwrap_or(scene.max_depth);
+        let records = WhittedRecords::of(scene, KernelFrame::of(scene), kernel.precision(), [width, height]);
+        let unknown = if without_boxes { 1 } else { MOST_PIXELS };
+        let in_turn = || Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), depth, unknown);
+        let requirements = Requirements {
+            pixels: pixels.unwrap_or_else(in_turn),
+            ..Requirements::of(&records, &settings.cuts, depth)
+        };
+        Self { kernel, requirements, size: [width, height], workgroup, without_boxes, has_samples: samples > 1 }
+    }
+}
+
+impl<'a> Tracers<'a> {
+    pub fn new(device: &'a TestDevice) -> Self {
+        Self { device, kept: Vec::new() }
+    }
+
+    /// Ready to draw the scene. Those of the course's kernel are made anew by each.
+    fn tracer(&mut self, scene: &Scene, settings: &Settings) -> &mut Tracer {
+        let made = Made::of(scene, settings);
+        if let Some(place) = self.kept.iter().position(|(other, _)| *other == made) {
+            let tracer = &mut self.kept[place].1;
+            tracer.take_up(scene, settings).unwrap();
+            return tracer;
+        }
+        let tracer = Tracer::new(self.device, scene, settings).unwrap();
+        self.kept.push((made, tracer));
+        &mut self.kept.last_mut().expect("it was put there").1
+    }
+
+    pub fn draw(&mut self, scene: &Scene, settings: &Settings) -> Frame {
+        let tracer = self.tracer(scene, settings);
+        let mut frame = tracer.frame().unwrap();
+        tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())).unwrap();
+        frame
+    }
+
+    /// Linear RGB.
+    pub fn draw_f64(&mut self, scene: &Scene, settings: &Settings) -> Vec<DVec3> {
+        self.tracer(scene, settings).render_f64().unwrap()
+    }
+}
