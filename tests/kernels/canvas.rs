@@ -133,7 +133,8 @@ fn every_kernel_s_picture_is_the_tracer_s_bit_for_bit_and_follows_every_edit() {
 fn another_build_of_the_kernel_that_draws_draws_from_then_on() {
     let device = TestDevice::open();
     let (size, scene) = ([97, 61], scene("showcase"));
-    let [accurate, plain] = [ACCURATE, Kernel::Plain].map(|kernel| rendered_by(&device, kernel, &scene, size));
+    let mut tracers = Tracers::new(&device);
+    let [accurate, plain] = [ACCURATE, Kernel::Plain].map(|kernel| rendered_by(&mut tracers, kernel, &scene, size));
     assert!(accurate != plain, "builds are told apart by their pictures");
     let mut easel = Easel::new(&device, size);
     easel.canvas.use_kernel(ACCURATE).unwrap();

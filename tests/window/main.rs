@@ -13,3 +13,4 @@ mod geometry;
 mod pictures;
 mod sizes;
 mod timing;
+mod validation;
