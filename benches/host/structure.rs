@@ -2,8 +2,9 @@
 
 use criterion::{Criterion, Throughput};
 use rayon::prelude::*;
+use zerkalo::scene::KernelFrame;
 use zerkalo::tracer::hierarchy::{Bounds, levels, order};
-use zerkalo::tracer::{KernelFrame, Precision, WhittedRecords, bounds};
+use zerkalo::tracer::{Precision, WhittedRecords, bounds};
 
 pub fn benches(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("structure");

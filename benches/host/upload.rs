@@ -2,7 +2,8 @@
 
 use criterion::{Criterion, Throughput};
 use zerkalo::gpu::{Device, Validation};
-use zerkalo::tracer::{KernelFrame, Precision, WhittedRecords, upload_scene};
+use zerkalo::scene::KernelFrame;
+use zerkalo::tracer::{Precision, WhittedRecords, upload_scene};
 
 /// Nothing where there is no device; `ZERKALO_DEVICE` chooses one.
 pub fn benches(criterion: &mut Criterion) {

@@ -6,7 +6,6 @@ use std::sync::Arc;
 use bytemuck::NoUninit;
 
 use super::course::WORKGROUP;
-use super::kernel_frame::Extent;
 use super::live_kernel::Begun;
 use super::pixels::check_picture;
 use super::sampling::Sampling;
@@ -16,7 +15,7 @@ use super::whitted_records::{SolidRecords, WhittedRecords};
 use super::{Kernel, TracerError, Work};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Texel, Use};
 use crate::plan::{Crowd, Precision};
-use crate::scene::{Primitive, Scene};
+use crate::scene::{Extent, Primitive, Scene};
 
 /// The kernel with the state that it began last.
 pub(super) struct LiveWhitted {

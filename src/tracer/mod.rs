@@ -5,7 +5,6 @@ mod chunks;
 mod course;
 mod enlarge;
 pub mod hierarchy;
-mod kernel_frame;
 mod live_kernel;
 mod live_whitted;
 mod outlines;
@@ -30,7 +29,6 @@ use glam::DVec3;
 
 pub use canvas::Canvas;
 pub use course::{BINDINGS, MAX_PRIMITIVES, WORKGROUP, upload};
-pub use kernel_frame::KernelFrame;
 pub use outlines::bounds;
 pub use records::{
     BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MaterialRecord, PrimitiveRecords, SphereRecord,

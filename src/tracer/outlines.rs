@@ -5,9 +5,8 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::hierarchy::{Bounds, GROUP, Level};
-use super::kernel_frame::KernelFrame;
 use super::whitted_records::{row, unit};
-use crate::scene::{Solid, SolidKind, world_from_box};
+use crate::scene::{KernelFrame, Solid, SolidKind, world_from_box};
 
 /// A row of the texel buffer.
 type Row = [f32; 4];

@@ -6,7 +6,6 @@ use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
 
 use super::course::upload;
-use super::kernel_frame::KernelFrame;
 use super::records::{FrameRecord, PrimitiveRecords};
 use super::requirements::Requirements;
 use super::whitted::{scene_bindings, upload_scene};
@@ -18,7 +17,7 @@ use crate::gpu::{
 };
 use crate::plan::Precision;
 use crate::reference::{Face, Side};
-use crate::scene::{Light, Primitive, Scene, Solid, farthest_coordinate};
+use crate::scene::{KernelFrame, Light, Primitive, Scene, Solid, farthest_coordinate};
 
 /// What is known of a probed ray's origin. The course kernel knows nothing of it.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -4,14 +4,13 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::kernel_frame::KernelFrame;
 use super::requirements::Requirements;
 use super::sampling::Sampling;
 use super::whitted_records::{WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingKind, Buffer, BufferKind, Device, GpuError, Resource, Texel};
 use crate::plan::{Area, Cuts, MOST_PIXELS, Precision};
-use crate::scene::Scene;
+use crate::scene::{KernelFrame, Scene};
 
 impl Precision {
     /// Of a solid, in kernel lengths: the rounding errors of its squares are still normal numbers.

@@ -11,11 +11,12 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::hierarchy::{self, Bounds, GROUP, Level};
-use super::kernel_frame::{KernelFrame, two_sum};
 use super::outlines::{bounds, is_turned, level_rows, nothing, outline};
 use super::sampling::sample_place;
 use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, SOLID_ROWS, VIEW_ROWS};
-use crate::scene::{BoundingSphere, Camera, Light, Primitive, Projection, Scene, Solid, SolidKind, world_from_box};
+use crate::scene::{
+    BoundingSphere, Camera, KernelFrame, Light, Primitive, Projection, Scene, Solid, SolidKind, two_sum, world_from_box,
+};
 
 /// Lights farther than this many times the largest primitive are moved here along their direction: parallel light to
 /// the last bit of an `f64`, and no square of their distance overflows an `f32`.

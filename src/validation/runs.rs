@@ -6,9 +6,9 @@ use serde::Serialize;
 
 use crate::gpu::DeviceDescription;
 use crate::plan::{Limits, Plan, PlanError, Precision, Structure, Wishes};
-use crate::scene::{Light, Scene, gallery};
+use crate::scene::{KernelFrame, Light, Scene, gallery};
 use crate::tracer::sampling::Sampling;
-use crate::tracer::{Kernel, KernelFrame, Requirements, Settings, WORKGROUP, WhittedRecords};
+use crate::tracer::{Kernel, Requirements, Settings, WORKGROUP, WhittedRecords};
 
 /// Pixels. The checks are per command and per access, not per pixel.
 pub const PICTURE: [u32; 2] = [64, 28];

@@ -6,8 +6,8 @@ use crate::scenes::{cube, light, material, mirror, mixed_scene, primitive, scene
 use glam::DVec3;
 use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, Wishes};
 use zerkalo::reference::{self, LIGHT_BALL};
-use zerkalo::scene::{Camera, Light, Material, Scene, Solid, SolidKind, gallery};
-use zerkalo::tracer::{KernelFrame, WhittedRecords};
+use zerkalo::scene::{Camera, KernelFrame, Light, Material, Scene, Solid, SolidKind, gallery};
+use zerkalo::tracer::WhittedRecords;
 
 const DEVICE: Limits = Limits { float64: true, max_array_bytes: 1 << 27, max_image_side: 16384, packets: true };
 

@@ -10,8 +10,8 @@ use crate::spirv_walk::{Kernel, Reached};
 use glam::DVec3;
 use zerkalo::gpu::{Shader, shaders};
 use zerkalo::plan::{Limits, Plan, Precision, Wishes};
-use zerkalo::scene::{Light, Material, Scene, Solid, SolidKind, gallery};
-use zerkalo::tracer::{KernelFrame, Requirements, WhittedRecords};
+use zerkalo::scene::{KernelFrame, Light, Material, Scene, Solid, SolidKind, gallery};
+use zerkalo::tracer::{Requirements, WhittedRecords};
 
 const SIZE: (u32, u32) = (1621, 701);
 

@@ -7,9 +7,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 use zerkalo::frame::Frame;
 use zerkalo::reference::{BACKGROUND, LIGHT_BALL};
-use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, Solid, SolidKind, gallery};
+use zerkalo::scene::{Camera, KernelFrame, Light, Material, Primitive, Scene, Solid, SolidKind, gallery};
 use zerkalo::tracer::hierarchy::{Bounds, GROUP, level_count, levels, order};
-use zerkalo::tracer::{Kernel, KernelFrame, Precision, Settings, WhittedRecords, bounds};
+use zerkalo::tracer::{Kernel, Precision, Settings, WhittedRecords, bounds};
 
 fn made(name: &str) -> Scene {
     gallery::scene(name).unwrap_or_else(|| panic!("no scene {name}"))

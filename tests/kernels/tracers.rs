@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::plan::{Crowd, MOST_PIXELS};
-use zerkalo::scene::Scene;
-use zerkalo::tracer::{Kernel, KernelFrame, Requirements, Settings, Tracer, WhittedRecords};
+use zerkalo::scene::{KernelFrame, Scene};
+use zerkalo::tracer::{Kernel, Requirements, Settings, Tracer, WhittedRecords};
 
 use crate::common::TestDevice;
 
@@ -47,7 +47,7 @@ impl<'a> Tracers<'a> {
         Self { device, kept: Vec::new() }
     }
 
-    /// Ready to draw the scene. Those of the course's kernel are made anew by each.
+    /// Ready to draw the scene.
     fn tracer(&mut self, scene: &Scene, settings: &Settings) -> &mut Tracer {
         let made = Made::of(scene, settings);
         if let Some(place) = self.kept.iter().position(|(other, _)| *other == made) {

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::scene::{BoundingSphere, Primitive, Scene, farthest_coordinate};
+use super::{BoundingSphere, Primitive, Scene, farthest_coordinate};
 
 /// From the world frame to the kernel's: (world − origin)·scale, rounded once where `scale` is a power of two.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -32,12 +32,12 @@ impl KernelFrame {
         Extent::of(&scene.primitives).frame(scene.camera.position)
     }
 
-    pub(super) fn point(&self, world: DVec3) -> DVec3 {
+    pub(crate) fn point(&self, world: DVec3) -> DVec3 {
         (world - self.origin) * self.scale
     }
 
     /// A point and what its rounding lost.
-    pub(super) fn exact_point(&self, world: DVec3) -> (DVec3, DVec3) {
+    pub(crate) fn exact_point(&self, world: DVec3) -> (DVec3, DVec3) {
         let (value, error) = two_sum(world, -self.origin);
         (value * self.scale, error * self.scale)
     }
@@ -45,7 +45,7 @@ impl KernelFrame {
 
 /// Where the primitives are, world frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Extent {
+pub(crate) struct Extent {
     origin: DVec3,
     /// The largest coordinate of a solid, from there.
     farthest: f64,
@@ -116,7 +116,7 @@ fn interquartile_mean(mut weighted: Vec<(f64, f64)>) -> f64 {
 }
 
 /// a + b and what its rounding lost (Knuth's TwoSum).
-pub(super) fn two_sum(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
+pub(crate) fn two_sum(a: DVec3, b: DVec3) -> (DVec3, DVec3) {
     let sum = a + b;
     let b_part = sum - a;
     (sum, (a - (sum - b_part)) + (b - b_part))
