@@ -19,8 +19,8 @@ use crate::viewer::{Display, PictureWindow};
 ///
 /// Under core and synchronization checks, then once more under GPU-assisted ones (every variant of a kernel once, as the
 /// layer's own code makes them compile long), then under best-practices ones. Which of them the layer at hand does is
-/// found out by a mistake of each kind made on purpose. Exits with 1 if there is any message; Ctrl-C tells what was found
-/// so far.
+/// found out by a mistake of each kind made on purpose. Exits with 1 if there is any message, or a check that was asked for
+/// is not done; Ctrl-C tells what was found so far.
 #[derive(Debug, Clone, Args)]
 pub struct ValidateArgs {
     /// For every kernel only as many scenes as turn on and off all that a plan can
@@ -74,10 +74,29 @@ pub fn run(args: &ValidateArgs) -> Result<()> {
         lines(&outcome).iter().try_for_each(|line| print_line(line))?;
     }
     drawn?;
-    match outcome.message_count {
-        0 => Ok(()),
-        count => Err(ValidationFailed { count }.into()),
+    if outcome.message_count > 0 {
+        return Err(ValidationFailed { count: outcome.message_count }.into());
     }
+    match silent(&outcome.checks) {
+        checks if checks.is_empty() => Ok(()),
+        checks => Err(ChecksNotDone { checks }.into()),
+    }
+}
+
+/// Such as `GPU-assisted, synchronization (core)`: those that told nothing of the mistakes that they are there for.
+fn silent(checks: &[TriedCheck]) -> String {
+    let named = |&TriedCheck { validation, check, .. }: &TriedCheck| match check.name() {
+        name if name == validation => name.to_owned(),
+        name => format!("{name} ({validation})"),
+    };
+    checks.iter().filter(|tried| !tried.works).map(named).collect::<Vec<_>>().join(", ")
+}
+
+/// No message means nothing of what these are for.
+#[derive(Debug, thiserror::Error)]
+#[error("this layer does not do what it was asked for: {checks}; --validate=CHECKS asks for one kind")]
+struct ChecksNotDone {
+    checks: String,
 }
 
 /// All that the arguments ask for, or what came of it up to a failure or a stop, which is the second.
@@ -243,4 +262,22 @@ fn lines_of_group(group: &Group) -> Vec<String> {
         format!("  {}", text.trim()),
         format!("  met by: {told}{more}"),
     ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::Check;
+
+    #[test]
+    fn a_check_that_is_not_done_is_named() {
+        let tried = |validation: Validation, check, works| TriedCheck { validation: validation.name(), check, works };
+        let checks = vec![
+            tried(Validation::GpuAssisted, Check::GpuAssisted, false),
+            tried(Validation::Core, Check::Core, true),
+            tried(Validation::Core, Check::Synchronization, false),
+        ];
+        assert_eq!(silent(&checks), "GPU-assisted, synchronization (core)");
+        assert_eq!(silent(&checks[1..2]), "");
+    }
 }

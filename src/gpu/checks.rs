@@ -85,7 +85,7 @@ pub fn try_checks(wanted: Option<&str>, validation: Validation) -> Result<Vec<(C
     let device = Device::open(wanted, validation)?;
     let messages = device.messages().clone();
     Check::of(validation).iter().try_for_each(|check| check.provoke(&device))?;
-    // Current layers look at what a kernel did in a thread of their own, and are done with it when the device is gone.
+    // Some layers tell at the end.
     drop(device);
     let said = messages.to_vec();
     let is_told = |check: Check| said.iter().any(|message| check.is_told_by(message));

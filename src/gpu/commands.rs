@@ -125,7 +125,13 @@ impl Commands {
             return Ok(());
         }
         // SAFETY: the fence was given to a submission.
-        let waited = unsafe { self.device.raw.wait_for_fences(&[self.fence], true, u64::MAX) };
+        let mut waited = unsafe { self.device.raw.wait_for_fences(&[self.fence], true, u64::MAX) };
+        if waited.is_ok() && self.device.is_gpu_assisted() {
+            // Layer 1.4.309 reads what kernels did in a thread of its own, which the fence does not wait for, and forgets
+            // it with the command buffer.
+            // SAFETY: the device is alive; its only queue is used by this thread alone, as in `submit`.
+            waited = unsafe { self.device.raw.queue_wait_idle(self.device.queue) };
+        }
         if waited.is_err() {
             // Work may be left in flight, which must not outlive its resources. On a lost device there is none, and
             // this fails too.

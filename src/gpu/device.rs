@@ -117,6 +117,11 @@ impl Device {
         work(&mut self.allocator().lock().unwrap_or_else(std::sync::PoisonError::into_inner))
     }
 
+    /// Whether the layer instruments kernels.
+    pub(super) fn is_gpu_assisted(&self) -> bool {
+        self.instance.validation.is_gpu_assisted()
+    }
+
     /// For a renderer that allocates for itself; it must not outlive the device.
     pub(super) fn allocator(&self) -> &Arc<Mutex<Allocator>> {
         // invariant: `new` sets it before the device is shared, and only `drop` takes it.

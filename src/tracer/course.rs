@@ -60,6 +60,7 @@ pub(super) struct CourseKernel {
     arrays: [Resource; 4],
     /// What the arrays hold.
     primitives: PrimitiveRecords,
+    max_depth: u32,
     workgroup: [u32; 2],
 }
 
@@ -79,7 +80,18 @@ impl CourseKernel {
             constants: &[max_depth, workgroup[0], workgroup[1]],
         };
         let pipeline = ComputePipeline::new(device, &description)?;
-        Ok(Self { pipeline, arrays: upload(device, &primitives)?, primitives, workgroup })
+        Ok(Self { pipeline, arrays: upload(device, &primitives)?, primitives, max_depth, workgroup })
+    }
+
+    /// Whether its pipeline is the one that these need.
+    pub fn fits(&self, max_depth: u32, workgroup: [u32; 2]) -> bool {
+        (self.max_depth, self.workgroup) == (max_depth, workgroup)
+    }
+
+    /// Its pipeline with other primitives.
+    pub fn with(&self, device: &Arc<Device>, primitives: PrimitiveRecords) -> Result<Self, GpuError> {
+        let arrays = upload(device, &primitives)?;
+        Ok(Self { pipeline: self.pipeline.clone(), arrays, primitives, ..*self })
     }
 
     /// The kernel writing into `picture`.

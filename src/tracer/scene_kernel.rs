@@ -28,9 +28,7 @@ impl SceneKernel {
         let workgroup = settings.workgroup;
         Ok(match settings.kernel {
             Kernel::Course => {
-                settings.sampling().check_plain()?;
-                let size = [settings.width, settings.height];
-                let CourseScene { frame, primitives } = CourseScene::new(scene, max_depth, size)?;
+                let CourseScene { frame, primitives } = course_scene(scene, settings, max_depth)?;
                 let kernel = CourseKernel::new(device, &shaders::COURSE, primitives, max_depth, workgroup)?;
                 Self::Course { kernel, frame: Box::new(frame) }
             }
@@ -62,6 +60,11 @@ impl SceneKernel {
                     *pipeline = pipeline.replaced(device, &scene, workgroup)?;
                 }
                 (*arrays, *shot) = (new_arrays, scene.shot);
+            }
+            Self::Course { kernel: made, frame } if kernel == Kernel::Course && made.fits(max_depth, workgroup) => {
+                let scene = course_scene(scene, settings, max_depth)?;
+                *made = made.with(device, scene.primitives)?;
+                **frame = scene.frame;
             }
             Self::Whitted { .. } | Self::Course { .. } => *self = Self::new(device, scene, settings, max_depth)?,
         }
@@ -135,6 +138,11 @@ impl SceneKernel {
             }
         }
     }
+}
+
+fn course_scene(scene: &Scene, settings: &Settings, max_depth: u32) -> Result<CourseScene, TracerError> {
+    settings.sampling().check_plain()?;
+    CourseScene::new(scene, max_depth, [settings.width, settings.height])
 }
 
 fn whitted_scene(
