@@ -55,13 +55,13 @@ fn median(times: &[Duration]) -> Duration {
 
 #[test]
 fn the_panel_answers_while_a_slow_picture_is_traced() {
-    let desk = Desk::alone(Locale::Russian, [1500, 950]);
+    let desk = Desk::alone(Locale::Russian, [2000, 1250]);
     let mut window = desk.view(&["start"]);
     let switch = "Инвертировать мышь";
     window.click(switch);
     window.settle();
     let idle = answers(&mut window, switch, false);
-    // Ten seconds of work for a software device, or more.
+    // Tens of seconds of work for a software device; some answers must come before they are over.
     window.menu(&["Галерея", "Таблица 4.1: кубы", "таблица 4.1: кубы, 100"]);
     window.wait_until("the grid", |now| now.primitives == 100);
     window.click(switch);
