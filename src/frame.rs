@@ -4,7 +4,7 @@ mod exr_file;
 mod png_file;
 
 use std::fs::File;
-use std::io::{BufReader, BufWriter, Write};
+use std::io::{BufReader, BufWriter, Cursor, Write};
 use std::path::{Path, PathBuf};
 
 use thiserror::Error;
@@ -41,7 +41,7 @@ pub enum FrameError {
     Read { path: PathBuf, reason: String },
     #[error("could not write image {path:?}: {reason}")]
     Write { path: PathBuf, reason: String },
-    #[error("could not make a PNG of a frame: {reason}")]
+    #[error("could not encode a frame: {reason}")]
     Encode { reason: String },
 }
 
@@ -176,13 +176,14 @@ impl Frame {
         file.finish().map_err(|error| FrameError::write(path, error))
     }
 
-    /// A PNG file's bytes, see [`FileFormat::Png`].
-    pub fn to_png(&self) -> Result<Vec<u8>, FrameError> {
-        let mut bytes = Vec::new();
-        match png_file::write(self, &mut bytes) {
-            Ok(()) => Ok(bytes),
-            Err(error) => Err(FrameError::Encode { reason: error.to_string() }),
-        }
+    /// The bytes of a file.
+    pub fn encode(&self, format: FileFormat) -> Result<Vec<u8>, FrameError> {
+        let mut bytes = Cursor::new(Vec::new());
+        let encoded = match format {
+            FileFormat::Png => png_file::write(self, &mut bytes).map_err(|error| error.to_string()),
+            FileFormat::Exr => exr_file::write(self, &mut bytes).map_err(|error| error.to_string()),
+        };
+        encoded.map(|()| bytes.into_inner()).map_err(|reason| FrameError::Encode { reason })
     }
 
     /// Refuses at once what [`Frame::save`] would refuse after a long render: an unknown extension, a folder that does

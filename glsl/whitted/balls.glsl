@@ -42,7 +42,9 @@ Real ball_ahead(Ray ray, Light lamp, bool looks, out Real3 intensity) {
         Light ball_light = light_with_ball(i, lamp);
         Hit ball;
         bool is_met = meet(Sphere(ball_light.position, ball_light.ball_radius), ray, FREE, CURVED, ball);
-        bool is_seen = i < frame.light_count && is_met && ball.t < t;
+        // From within there is nothing to see of it, nor of one without a radius.
+        bool is_there = ball_light.ball_radius > 0.0 && !ball.inside;
+        bool is_seen = i < frame.light_count && is_met && is_there && ball.t < t;
         if (is_seen) intensity = ball_light.intensity;
         t = is_seen ? ball.t : t;
         i++;

@@ -177,7 +177,8 @@ void trace(View view) {
                 Real3 direction_to_next = towards(next, nearest.point, distance_to_next);
                 Real cosine = dot(nearest.normal, direction_to_next);
                 // A light at the hit point gives nothing.
-                bool shines = is_seeking && distance_to_next > 0.0 && cosine > 0.0;
+                bool shines = is_seeking && distance_to_next > 0.0 && cosine > 0.0 &&
+                              (nearest.face == CURVED || is_above(next, nearest, cosine * distance_to_next));
                 Real3 sent_by_next = sent_back(matter, nearest.normal, ray_direction, direction_to_next, cosine, next);
                 // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
                 bool is_faint = path.weight * largest_component(sent_by_next) <= Real(frame.least_shadowed);

@@ -10,6 +10,7 @@ pub mod plan;
 pub mod render;
 pub mod report;
 pub mod stability;
+mod streams;
 pub mod trade;
 pub mod validate;
 pub mod view;
@@ -152,10 +153,25 @@ fn scene_named(name: &str) -> Result<Scene, SceneError> {
         None => Scene::load(Path::new(name)).map_err(|mut error| {
             if !Path::new(name).exists() {
                 error.what.push_str("; nor is it a name of `zerkalo gallery`");
+                error.what.extend(nearest_ready(name).map(|near| format!(": did you mean {near}?")));
             }
             error
         }),
     }
+}
+
+/// The ready scene that a mistyped name may mean.
+fn nearest_ready(name: &str) -> Option<String> {
+    // What has an ending is a file's name, and what has a folder too.
+    if Path::new(name).extension().is_some() || name.contains('/') {
+        return None;
+    }
+    // Most of the letters are as they should be.
+    const LIKE: f64 = 0.6;
+    let likeness = |entry: &str| strsim::normalized_damerau_levenshtein(entry, &name.to_lowercase());
+    let entries = ready::entries().into_iter().map(|entry| entry.name);
+    let nearest = entries.max_by(|a, b| likeness(a).total_cmp(&likeness(b)))?;
+    (likeness(&nearest) >= LIKE).then_some(nearest)
 }
 
 /// Every file that `-o` asks for, of which it is known that it can be written; a name without an extension is a folder's
@@ -250,6 +266,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.downcast_ref().is_some_and(OutputError::is_input_error)
             || cause.downcast_ref().is_some_and(SettingError::is_input_error)
             || cause.is::<PlanError>()
+            || cause.is::<streams::NotIntoTerminal>()
             || cause.is::<trade::Contradictory>()
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });

@@ -16,7 +16,7 @@ pub struct PlanArgs {
     /// A scene file (.toml, .json, .zscene) or a name of `zerkalo gallery`
     pub scene: String,
     /// Largest allowed change of any linear channel, such as 0.002 or 1/510; 0 is exact
-    #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error)]
+    #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error, allow_hyphen_values = true)]
     pub error: f64,
     /// What the kernel calculates in, in place of what the plan chooses
     #[arg(long, value_enum)]
@@ -62,6 +62,8 @@ struct Report<'a> {
     bounds: Bounds,
     cuts: Cuts,
     decisions: Vec<Line>,
+    /// Why the picture will not be right; null where it will.
+    warning: Option<String>,
 }
 
 pub fn run(args: &PlanArgs) -> Result<()> {
@@ -84,6 +86,7 @@ pub fn run(args: &PlanArgs) -> Result<()> {
             bounds: plan.bounds,
             cuts: plan.cuts,
             decisions: plan.lines(),
+            warning: plan.warning(),
         });
     }
     let device = device.unwrap_or("any Vulkan 1.2 device (none is at hand)");
@@ -91,7 +94,8 @@ pub fn run(args: &PlanArgs) -> Result<()> {
     plan.lines().iter().try_for_each(|Line { what, choice, why, saves }| {
         let saves = saves.as_ref().map(|saves| format!("; saves {saves}")).unwrap_or_default();
         print_line(&format!("  {what:<14} {choice:<11} {why}{saves}"))
-    })
+    })?;
+    plan.warning().iter().try_for_each(|warning| print_line(&format!("warning: {warning}")))
 }
 
 /// The device that `render` would take; none where there is no Vulkan, for a plan needs only its limits.

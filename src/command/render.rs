@@ -10,7 +10,8 @@ use serde::Serialize;
 
 use super::interrupt::Listener;
 use super::plan::parse_error;
-use super::{DeviceArgs, ValidationArgs, print_json, progress_bar, refuse_messages, scene_named};
+use super::streams::{PictureFormat, STREAM, StreamArgs};
+use super::{DeviceArgs, ValidationArgs, print_line, progress_bar, refuse_messages, scene_named};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Messages};
 use crate::measure::median;
@@ -49,9 +50,11 @@ pub enum Precision {
 /// Render a scene into a PNG (display values) or EXR (linear values) file
 #[derive(Debug, Clone, Args)]
 pub struct RenderArgs {
-    /// A scene file (.toml, .json, .zscene) or a name of `zerkalo gallery`
+    /// A scene file (.toml, .json, .zscene), a name of `zerkalo gallery`, or - for standard input
     pub scene: String,
-    /// The picture to write: .png or .exr
+    #[command(flatten)]
+    pub streams: StreamArgs,
+    /// The picture to write: .png or .exr, or - for standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
     /// Pixels, each side 1 to 16384
@@ -60,7 +63,7 @@ pub struct RenderArgs {
     /// Which tracer draws
     #[arg(long, value_enum, default_value_t)]
     pub kernel: Kernel,
-    /// What the whitted kernel calculates in [default: f32, where it is known to keep the error]
+    /// What the whitted kernel calculates in [default: f32, where the picture is right in it]
     #[arg(long, value_enum)]
     pub precision: Option<Precision>,
     /// Generations of a ray, in place of the scene's
@@ -68,7 +71,7 @@ pub struct RenderArgs {
     pub max_depth: Option<u32>,
     /// Largest change of any linear channel by what the whitted or the plain kernel leaves out, such as 0.002 or 1/510;
     /// 0 is exact
-    #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error)]
+    #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error, allow_hyphen_values = true)]
     pub error: f64,
     /// Anti-aliasing by the whitted kernel: a pixel is the mean of so many rays through fixed places in it, 1 to 64
     #[arg(long, value_name = "N", default_value = "1", value_parser = parse_samples())]
@@ -156,6 +159,8 @@ struct Report<'a> {
     precision: Precision,
     /// No linear channel is changed more by what was left out.
     error_bound: f64,
+    /// Why the picture is not right; null where it is.
+    warning: &'a Option<String>,
     samples_per_pixel: u32,
     /// Size of the traced picture against this one.
     scale: f64,
@@ -177,6 +182,7 @@ struct Rendered {
     precision: Precision,
     sampling: Sampling,
     error_bound: f64,
+    warning: Option<String>,
     device: String,
     driver: String,
     samples_ns: Vec<u64>,
@@ -185,14 +191,26 @@ struct Rendered {
 
 /// Renders, saves, reports. Fails after saving when validation had anything to say.
 pub fn run(args: &RenderArgs) -> Result<()> {
-    Frame::check_output_path(&args.output)?;
-    let scene = scene_named(&args.scene)?;
+    let is_into_stream = args.output.as_os_str() == STREAM;
+    if is_into_stream {
+        PictureFormat::check_output()?
+    } else {
+        Frame::check_output_path(&args.output)?
+    }
+    let scene = if args.scene == STREAM { args.streams.format.read_scene()? } else { scene_named(&args.scene)? };
     let rendered = match setting(args)? {
         Some(setting) => on_device(args, &scene, &setting)?,
         None => on_cpu(args, scene)?,
     };
-    rendered.frame.save(&args.output)?;
-    report(args, &rendered)?;
+    let told = told(args, &rendered)?;
+    if is_into_stream {
+        args.streams.output_format.write(&rendered.frame)?;
+        // The picture has standard output to itself.
+        eprintln!("{told}");
+    } else {
+        rendered.frame.save(&args.output)?;
+        print_line(&told)?;
+    }
     refuse_messages(&rendered.messages)
 }
 
@@ -241,7 +259,11 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &Setting) -> Result<Rend
     let messages = device.messages().clone();
 
     let (width, height) = args.size;
-    let Drawing { settings, error_bound } = setting.drawing(scene, &limits_of(device.description()), width, height)?;
+    let limits = limits_of(device.description());
+    let Drawing { settings, error_bound, warning } = setting.drawing(scene, &limits, width, height)?;
+    if let Some(warning) = &warning {
+        eprintln!("warning: {warning}");
+    }
     let mut tracer = Tracer::new(&device, scene, &settings)?;
     let (frame, samples_ns) = render(&mut tracer, args.repeat, &listener)?;
     // Destroyed before the messages are counted: the layers check that too.
@@ -252,7 +274,18 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &Setting) -> Result<Rend
     let precision = Precision::of_library(settings.kernel.precision());
     let kernel = Kernel::of(setting.kernel);
     let sampling = Sampling { samples: settings.samples, scale: settings.scale };
-    Ok(Rendered { frame, kernel, precision, sampling, error_bound, device: name, driver, samples_ns, messages })
+    Ok(Rendered {
+        frame,
+        kernel,
+        precision,
+        sampling,
+        error_bound,
+        warning,
+        device: name,
+        driver,
+        samples_ns,
+        messages,
+    })
 }
 
 fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
@@ -283,6 +316,7 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
         precision: Precision::F64,
         sampling: Sampling::PLAIN,
         error_bound: 0.0,
+        warning: None,
         device: "CPU".to_owned(),
         driver,
         samples_ns: Vec::new(),
@@ -312,18 +346,21 @@ fn render(tracer: &mut Tracer, repeat: Option<u32>, listener: &Listener) -> Resu
     Ok((frame, samples_ns))
 }
 
-fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
-    let Rendered { kernel, precision, sampling, error_bound, device, driver, samples_ns, messages, .. } = rendered;
+/// One line of what was done.
+fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
+    let Rendered { kernel, precision, sampling, error_bound, warning, device, driver, samples_ns, messages, .. } =
+        rendered;
     let Sampling { samples, scale } = *sampling;
     let gpu_time_ns = median(samples_ns);
     let (width, height) = args.size;
     if args.json {
-        return print_json(&Report {
+        return Ok(serde_json::to_string(&Report {
             width,
             height,
             kernel: *kernel,
             precision: *precision,
             error_bound: *error_bound,
+            warning,
             samples_per_pixel: samples,
             scale,
             device,
@@ -332,7 +369,7 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
             samples_ns,
             validation_messages: messages.count(),
             validation_remarks: messages.remarks().into_iter().map(Remarked::of).collect(),
-        });
+        })?);
     }
     let time = gpu_time_ns.map_or("no GPU time".to_owned(), |time| format!("{:.2} ms GPU time", time as f64 / 1e6));
     let of = match args.repeat {
@@ -340,12 +377,13 @@ fn report(args: &RenderArgs, rendered: &Rendered) -> Result<()> {
         None if samples_ns.is_empty() => String::new(),
         None => ", with the driver's warm-up".to_owned(),
     };
-    let output = args.output.display().to_string();
+    let output =
+        if args.output.as_os_str() == STREAM { "standard output".into() } else { args.output.display().to_string() };
     let bound = if *error_bound > 0.0 { format!(", at most {error_bound:.3e} off") } else { String::new() };
     let samples = if samples > 1 { format!(", {samples} samples a pixel") } else { String::new() };
     let scale = if scale < 1.0 { format!(", traced at {scale:.4} of that") } else { String::new() };
     let picture = format!("{width}x{height}{scale}{samples}");
-    super::print_line(&format!("wrote {} ({picture}, {device}, {time}{of}{bound})", output.escape_debug()))
+    Ok(format!("wrote {} ({picture}, {device}, {time}{of}{bound})", output.escape_debug()))
 }
 
 #[cfg(test)]

@@ -57,9 +57,12 @@ impl Area {
             Projection::Course => ([-1.0, 3.0], [-3.0, 1.0]),
         };
         let to_light = light.position - position;
+        if light.radius == 0.0 {
+            return None;
+        }
         // Coordinates of the world are differed in `f64`, each rounded once.
         let rounding = 4.0 * f64::EPSILON * light.position.length().max(position.length());
-        let radius = Light::BALL_RADIUS + SURELY * (to_light.length() + farthest) + rounding;
+        let radius = light.radius + SURELY * (to_light.length() + farthest) + rounding;
         // From the picture's first edge, at a slope of `first` half extents, to the last one.
         let part = |across: DVec3, half_extent: f64, first: f64, last: f64| {
             let (least, greatest) = slopes(to_light.dot(across), to_light.dot(ahead), radius)?;

@@ -15,6 +15,7 @@ mod budget;
 mod ceiling;
 mod precision;
 mod reason;
+mod rounding;
 mod solids;
 mod tiling;
 mod turns;
@@ -23,6 +24,7 @@ pub use balls::Area;
 pub use budget::{Bounds, Cuts};
 pub use precision::Precision;
 pub use reason::{Line, Reason};
+pub use rounding::{Cause, Near, Rounding};
 pub use tiling::{tile_side, tried_under_boxes};
 pub use turns::{CPU_LOOP_TURNS, Crowd, MOST_PIXELS};
 
@@ -156,6 +158,8 @@ pub struct Plan {
     /// Generations of a ray, the primary one included. Where it is 1, nothing is reflected.
     pub generations: Decision<u32>,
     pub precision: Decision<Precision>,
+    /// What rounding to `f32` does to the picture; `None` where `f64` was asked for.
+    pub rounding: Option<Rounding>,
     /// Of each kind.
     pub structures: Decision<[Structure; 4]>,
     /// Pixels of a workgroup along x and y.
@@ -183,7 +187,7 @@ impl Plan {
         let is_lone = is_lone_and_seen_from_outside(scene);
         let counts = SolidKind::ALL
             .map(|kind| scene.primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count());
-        let precision = precision::choose(scene, wishes, limits)?;
+        let (precision, rounding) = precision::choose(scene, wishes, limits)?;
         check_arrays(scene, counts, precision.choice, limits)?;
 
         let lights = lights(scene, &transport);
@@ -211,6 +215,7 @@ impl Plan {
             shadows,
             highlights: cut_highlights(highlights, &spent),
             precision,
+            rounding,
             structures: Structure::decide(counts),
             workgroup: Decision { choice: WORKGROUP, reason: Reason::SquareWorkgroup },
             pixels: turns::decide(scene, generations.choice, limits),
@@ -220,6 +225,22 @@ impl Plan {
             cuts,
             bounds,
         })
+    }
+}
+
+impl Plan {
+    /// That the picture will be wrong, and why, in one line: where `f32` is what there is or was asked for.
+    pub fn warning(&self) -> Option<String> {
+        match (self.precision.choice, self.rounding) {
+            (Precision::F32, Some(Rounding::Harmful { wrong, tried, cause })) => Some(format!(
+                "f32 is too coarse for this scene, {wrong} of {tried} pixels that were tried are wrong: {cause}; {}",
+                match self.precision.reason {
+                    Reason::Asked => "--precision f64 draws it right, where the device has that",
+                    _ => "the device has no f64 to draw it right",
+                }
+            )),
+            _ => None,
+        }
     }
 }
 

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
+use super::rounding::{self, Rounding};
 use super::solids::{outside_by, size};
 use super::{Decision, Limits, PlanError, Reason, Wishes};
 use crate::scene::{Camera, Projection, Scene, Solid};
@@ -22,6 +23,14 @@ impl Precision {
         match self {
             Self::F32 => f64::from(f32::EPSILON) / 2.0,
             Self::F64 => f64::EPSILON / 2.0,
+        }
+    }
+
+    /// Of a solid, in kernel lengths: the rounding errors of its squares are still normal numbers.
+    pub(crate) fn smallest_length(self) -> f64 {
+        match self {
+            Self::F32 => 2f64.powi(-50),
+            Self::F64 => 2f64.powi(-480),
         }
     }
 
@@ -46,35 +55,52 @@ impl Precision {
 /// Silhouettes that move by less change only pixels that they run through.
 const LARGEST_SHIFT_PIXELS: f64 = 0.5;
 
-/// As asked for, else f32 unless an error is allowed that f32 may exceed by rounding alone.
-pub(super) fn choose(scene: &Scene, wishes: &Wishes, limits: &Limits) -> Result<Decision<Precision>, PlanError> {
-    let decide = |choice, reason| Ok(Decision { choice, reason });
-    match wishes.precision {
-        Some(Precision::F64) if !limits.float64 => return Err(PlanError::NoFloat64),
-        Some(precision) => return decide(precision, Reason::Asked),
-        None => {}
+/// As asked for, else f32 unless that is known to be wrong, or an error is allowed that f32 may exceed by rounding alone;
+/// with what rounding to f32 does, where that is or may be chosen.
+pub(super) fn choose(
+    scene: &Scene,
+    wishes: &Wishes,
+    limits: &Limits,
+) -> Result<(Decision<Precision>, Option<Rounding>), PlanError> {
+    let decide = |choice, reason| Decision { choice, reason };
+    if wishes.precision == Some(Precision::F64) {
+        return if limits.float64 {
+            Ok((decide(Precision::F64, Reason::Asked), None))
+        } else {
+            Err(PlanError::NoFloat64)
+        };
     }
+    let &Wishes { max_depth, width, height, .. } = wishes;
     let shift_pixels = silhouette_shift_pixels(scene, wishes, Precision::F32);
+    let rounding = rounding::of_f32(scene, max_depth.unwrap_or(scene.max_depth), [width, height], shift_pixels);
     let bar = Precision::F32.rounding_bar() * brightest_source(scene).max(1.0);
-    if wishes.error == 0.0 {
-        return decide(Precision::F32, Reason::RoundingIsNoCut { bar, shift_pixels });
-    }
-    let reason = if wishes.error < bar {
+    let reason = if wishes.precision.is_some() {
+        return Ok((decide(Precision::F32, Reason::Asked), Some(rounding)));
+    } else if let Rounding::Harmful { wrong, tried, cause } = rounding {
+        Reason::RoundingSpoils { wrong, tried, cause }
+    } else if wishes.error == 0.0 {
+        let reason = match rounding {
+            Rounding::Harmless { tried } => Reason::RoundingIsHarmless { tried, bar },
+            _ => Reason::RoundingIsNoCut { bar, shift_pixels },
+        };
+        return Ok((decide(Precision::F32, reason), Some(rounding)));
+    } else if wishes.error < bar {
         Reason::RoundingExceedsError { bar }
     } else if shift_pixels > LARGEST_SHIFT_PIXELS {
         Reason::RoundingMovesSilhouettes { shift_pixels }
     } else {
-        return decide(Precision::F32, Reason::RoundingIsWithinError { bar, shift_pixels });
+        return Ok((decide(Precision::F32, Reason::RoundingIsWithinError { bar, shift_pixels }), Some(rounding)));
     };
-    if limits.float64 {
-        decide(Precision::F64, reason)
-    } else {
-        decide(Precision::F32, Reason::NoFloat64 { bar, shift_pixels })
-    }
+    Ok(match (limits.float64, reason) {
+        (true, reason) => (decide(Precision::F64, reason), Some(rounding)),
+        // Its own words say what is wrong.
+        (false, Reason::RoundingSpoils { .. }) => (decide(Precision::F32, reason), Some(rounding)),
+        (false, _) => (decide(Precision::F32, Reason::NoFloat64 { bar, shift_pixels }), Some(rounding)),
+    })
 }
 
 /// The largest channel of the background and of the lights.
-fn brightest_source(scene: &Scene) -> f64 {
+pub(super) fn brightest_source(scene: &Scene) -> f64 {
     let lights = scene.lights.iter().map(|light| light.intensity.max_element());
     lights.fold(scene.background.max_element(), f64::max)
 }

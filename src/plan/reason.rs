@@ -4,6 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
+use super::rounding::Cause;
 use super::{Decision, Plan, Structure};
 use crate::scene::SolidKind;
 
@@ -61,6 +62,17 @@ pub enum Reason {
     RoundingIsNoCut {
         bar: f64,
         shift_pixels: f64,
+    },
+    /// Of so many pixels that were tried no more than a stray one changes by more than `bar`.
+    RoundingIsHarmless {
+        tried: usize,
+        bar: f64,
+    },
+    /// See [`Rounding::Harmful`](super::Rounding).
+    RoundingSpoils {
+        wrong: usize,
+        tried: usize,
+        cause: Cause,
     },
     RoundingIsWithinError {
         bar: f64,
@@ -140,6 +152,15 @@ impl fmt::Display for Reason {
                 Short(bar),
                 Short(shift_pixels)
             ),
+            Self::RoundingIsHarmless { tried, bar } => write!(
+                f,
+                "of {tried} pixels that were tried, rounding to f32 changes a channel of none or a stray one by more \
+                 than {}",
+                Short(bar)
+            ),
+            Self::RoundingSpoils { wrong, tried, cause } => {
+                write!(f, "rounding to f32 spoils {wrong} of {tried} pixels that were tried: {cause}")
+            }
             Self::RoundingIsWithinError { bar, shift_pixels } => write!(
                 f,
                 "rounding to f32 keeps channels within {} off edges (tested; not part of the bound), silhouettes \

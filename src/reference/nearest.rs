@@ -31,6 +31,11 @@ impl Solids {
         nearest
     }
 
+    /// How far a place is above the plane of the face that was hit, 0 in it to rounding; `None` of a curved face.
+    pub fn height_above(&self, hit: &Hit, place: DVec3) -> Option<f64> {
+        self.0[hit.primitive as usize].height_above(hit.face, hit.side, place)
+    }
+
     /// Whether a solid lies between a point and a light; `departure` is the point's.
     pub fn hide(&self, light_position: DVec3, point: DVec3, departure: Departure) -> bool {
         let ray = Ray { origin: point, direction: light_position - point };

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::camera::unit;
 use super::nearest::Solids;
 use super::path::Path;
-use super::ray::{Departure, Hit, Ray};
+use super::ray::{Departure, Hit, Ray, Side};
 use super::{BACKGROUND, LIGHT_BALL, Pixel};
 use crate::scene::{Light, Material, Primitive, Scene, Solid};
 
@@ -13,14 +13,14 @@ use crate::scene::{Light, Material, Primitive, Scene, Solid};
 pub struct World<'a> {
     scene: &'a Scene,
     solids: Solids,
-    /// One for each light, in order.
-    light_balls: Solids,
+    /// One for each light, in order; none where nothing of it is seen.
+    light_balls: Vec<Option<Solids>>,
 }
 
 impl<'a> World<'a> {
     pub fn new(scene: &'a Scene) -> Self {
-        let balls: Vec<Primitive> = scene.lights.iter().map(ball).collect();
-        Self { scene, solids: Solids::new(&scene.primitives), light_balls: Solids::new(&balls) }
+        let ball = |light: &Light| (light.radius > 0.0).then(|| Solids::new(&[ball(light)]));
+        Self { scene, solids: Solids::new(&scene.primitives), light_balls: scene.lights.iter().map(ball).collect() }
     }
 
     /// The nearest hit of a ray on the scene's primitives.
@@ -71,7 +71,9 @@ impl<'a> World<'a> {
             // NaN for a light at the hit point, which therefore gives nothing.
             let to_light = unit(light.position - hit.point);
             let cosine = hit.normal.dot(to_light);
-            let lit = cosine > 0.0 && !self.solids.hide(light.position, hit.point, hit.departure());
+            // Of a rounded point, a light in a face's plane is now on this side of it and now on that.
+            let faces = self.solids.height_above(hit, light.position).is_none_or(|height| height > 0.0);
+            let lit = faces && cosine > 0.0 && !self.solids.hide(light.position, hit.point, hit.departure());
             path.add_light(lit);
             if lit {
                 let mirrored_light = reflected(-to_light, hit.normal);
@@ -83,15 +85,20 @@ impl<'a> World<'a> {
         sum
     }
 
-    /// The light whose ball is nearer than any primitive.
+    /// The light whose ball is nearer than any primitive, and seen from outside.
     fn light_ball_before(&self, ray: &Ray, hit: Option<&Hit>) -> Option<u32> {
-        let ball = self.light_balls.nearest(ray, Departure::Free)?;
-        hit.is_none_or(|hit| ball.t < hit.t).then_some(ball.primitive)
+        let entry = |ball: &Option<Solids>| {
+            let entry = ball.as_ref()?.nearest(ray, Departure::Free)?;
+            (entry.side == Side::Outside).then_some(entry.t)
+        };
+        let balls = (0u32..).zip(&self.light_balls).filter_map(|(light, ball)| Some((light, entry(ball)?)));
+        let (light, t) = balls.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        hit.is_none_or(|hit| t < hit.t).then_some(light)
     }
 }
 
 fn ball(light: &Light) -> Primitive {
-    let solid = Solid::Sphere { center: light.position, radius: Light::BALL_RADIUS };
+    let solid = Solid::Sphere { center: light.position, radius: light.radius };
     Primitive { name: None, solid, material: Material::default() }
 }
 

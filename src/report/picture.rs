@@ -3,11 +3,11 @@
 use base64::prelude::{BASE64_STANDARD, Engine};
 use maud::{Markup, PreEscaped, html};
 
-use crate::frame::{Frame, FrameError};
+use crate::frame::{FileFormat, Frame, FrameError};
 
 /// A picture of pixels. `alternative`: what it shows, for those who do not see it.
 pub fn image(frame: &Frame, alternative: &str) -> Result<Markup, FrameError> {
-    let data = format!("data:image/png;base64,{}", BASE64_STANDARD.encode(frame.to_png()?));
+    let data = format!("data:image/png;base64,{}", BASE64_STANDARD.encode(frame.encode(FileFormat::Png)?));
     Ok(html! { img src=(data) width=(frame.width()) height=(frame.height()) alt=(alternative); })
 }
 
@@ -27,7 +27,7 @@ mod tests {
         let markup = image(&frame, "\"two\" pixels").unwrap().into_string();
         let (_, data) = markup.split_once("base64,").unwrap();
         let bytes = BASE64_STANDARD.decode(data.split('"').next().unwrap()).unwrap();
-        assert_eq!(bytes, frame.to_png().unwrap());
+        assert_eq!(bytes, frame.encode(FileFormat::Png).unwrap());
         assert!(markup.ends_with("width=\"2\" height=\"1\" alt=\"&quot;two&quot; pixels\">"), "{markup}");
     }
 }

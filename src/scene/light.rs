@@ -1,20 +1,22 @@
 use glam::DVec3;
 
-/// A point light without attenuation; primary rays see it as a ball of radius [`Light::BALL_RADIUS`].
+/// A point light without attenuation, which primary rays see from outside as a ball.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Light {
     pub position: DVec3,
     /// Linear RGB, not limited to 1.
     pub intensity: DVec3,
+    /// Of the ball, world units; 0: it is not seen. A camera inside does not see it either.
+    pub radius: f64,
 }
 
 impl Light {
-    /// Radius of the visible ball (`R_LSOURCE` of the course work), world units.
-    pub const BALL_RADIUS: f64 = 0.01;
+    /// Of the course's (`R_LSOURCE`), world units.
+    pub const COURSE_RADIUS: f64 = 0.01;
 }
 
 impl Default for Light {
     fn default() -> Self {
-        Self { position: DVec3::ZERO, intensity: DVec3::ONE }
+        Self { position: DVec3::ZERO, intensity: DVec3::ONE, radius: Self::COURSE_RADIUS }
     }
 }

@@ -129,7 +129,8 @@ fn check_camera(camera: &Camera) -> Result<(), Violation<'_>> {
 fn check_light(index: usize, light: &Light) -> Result<(), Violation<'_>> {
     let field = Field::of(Place::Light(index));
     field.any_vector("position", light.position)?;
-    field.vector("intensity", light.intensity, NOT_NEGATIVE, |v| v.min_element() >= 0.0)
+    field.vector("intensity", light.intensity, NOT_NEGATIVE, |v| v.min_element() >= 0.0)?;
+    field.number("radius", light.radius, "must be 0 or greater", |x| x >= 0.0)
 }
 
 fn check_primitive(index: usize, primitive: &Primitive) -> Result<(), Violation<'_>> {

@@ -77,6 +77,8 @@ pub struct Drawing {
     pub settings: Settings,
     /// No linear channel is changed more by what was left out for [`Setting::error`]: proven, rounding not in it.
     pub error_bound: f64,
+    /// See [`Plan::warning`].
+    pub warning: Option<String>,
 }
 
 /// A field that does not go with the others, or has an impossible value.
@@ -96,7 +98,7 @@ impl Setting {
         let precision = match kernel {
             Kernel::Course => {
                 let settings = Settings { max_depth, ..Settings::new(width, height) };
-                return Ok(Drawing { settings, error_bound: 0.0 });
+                return Ok(Drawing { settings, error_bound: 0.0, warning: None });
             }
             Kernel::Plain => Some(Precision::F32),
             Kernel::Whitted => self.precision,
@@ -108,7 +110,9 @@ impl Setting {
         if kernel == Kernel::Plain {
             settings.kernel = tracer::Kernel::Plain;
         }
-        Ok(Drawing { settings, error_bound: plan.bounds.total() })
+        // The plain kernel is there to show what rounding does.
+        let warning = plan.warning().filter(|_| kernel == Kernel::Whitted);
+        Ok(Drawing { settings, error_bound: plan.bounds.total(), warning })
     }
 
     /// # Errors
@@ -216,6 +220,7 @@ mod tests {
         }
         let course = drawing(Setting { kernel: Kernel::Course, max_depth: Some(3), ..Setting::default() });
         assert_eq!(course.settings, Settings { max_depth: Some(3), ..Settings::new(64, 28) });
+        assert_eq!([exact.warning, course.warning], [None, None]);
     }
 
     #[test]

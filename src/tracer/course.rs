@@ -11,7 +11,7 @@ use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, Dispatch, GpuError, PipelineDescription,
     Recorder, Resource, Shader, Use,
 };
-use crate::scene::{COURSE_PRIMITIVE_LIMIT, Scene};
+use crate::scene::{COURSE_PRIMITIVE_LIMIT, Light, Scene};
 
 /// `MAX_PRIMITIVES` of `glsl/interface.glsl`: the course work's limit, over all kinds together.
 pub const MAX_PRIMITIVES: usize = COURSE_PRIMITIVE_LIMIT;
@@ -43,6 +43,13 @@ impl CourseScene {
                 scene.lights.len()
             )));
         };
+        if light.radius != Light::COURSE_RADIUS {
+            return Err(TracerError::Refused(format!(
+                "the course kernel's light has a radius of {}, and the scene's of {}",
+                Light::COURSE_RADIUS,
+                light.radius
+            )));
+        }
         if scene.primitives.len() > MAX_PRIMITIVES {
             return Err(TracerError::Refused(format!(
                 "the course kernel takes at most {MAX_PRIMITIVES} primitives, and the scene has {}",

@@ -13,14 +13,6 @@ use crate::plan::{Area, Cuts, MOST_PIXELS, Precision};
 use crate::scene::{KernelFrame, Scene};
 
 impl Precision {
-    /// Of a solid, in kernel lengths: the rounding errors of its squares are still normal numbers.
-    pub(super) fn smallest_length(self) -> f64 {
-        match self {
-            Self::F32 => 2f64.powi(-50),
-            Self::F64 => 2f64.powi(-480),
-        }
-    }
-
     /// A vector and its error as the nearest vector of this precision and what is missing.
     pub(super) fn split(self, (vector, error): (DVec3, DVec3)) -> (DVec3, DVec3) {
         match self {

@@ -274,7 +274,7 @@ fn light_rows(light: &Light, frame: KernelFrame) -> [[f64; 4]; LIGHT_ROWS] {
     let position = frame.point(light.position);
     let nearer = (FARTHEST_LIGHT / position.abs().max_element()).min(1.0);
     // The ball keeps the angle under which the camera sees it.
-    [row(position * nearer, Light::BALL_RADIUS * frame.scale * nearer), row(light.intensity, 0.0)]
+    [row(position * nearer, light.radius * frame.scale * nearer), row(light.intensity, 0.0)]
 }
 
 /// `View`

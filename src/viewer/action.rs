@@ -90,8 +90,8 @@ pub enum UnsavedAnswer {
 pub enum Kernel {
     /// The course work's, on the Vulkan device.
     Course,
-    /// The accurate model on the Vulkan device.
-    Accurate(Precision),
+    /// The accurate model on the Vulkan device; `None`: in `f32` where that is right, as the plan for the scene says.
+    Accurate(Option<Precision>),
     /// The accurate model in `f64` on the CPU.
     Reference,
     /// As the settings' file says, on the Vulkan device.
@@ -102,8 +102,9 @@ impl From<UsualKernel> for Kernel {
     fn from(usual: UsualKernel) -> Self {
         match usual {
             UsualKernel::Course => Self::Course,
-            UsualKernel::WhittedF32 => Self::Accurate(Precision::F32),
-            UsualKernel::WhittedF64 => Self::Accurate(Precision::F64),
+            UsualKernel::Whitted => Self::Accurate(None),
+            UsualKernel::WhittedF32 => Self::Accurate(Some(Precision::F32)),
+            UsualKernel::WhittedF64 => Self::Accurate(Some(Precision::F64)),
             UsualKernel::Reference => Self::Reference,
         }
     }
@@ -114,8 +115,9 @@ impl Kernel {
     pub fn usual(self) -> Option<UsualKernel> {
         match self {
             Self::Course => Some(UsualKernel::Course),
-            Self::Accurate(Precision::F32) => Some(UsualKernel::WhittedF32),
-            Self::Accurate(Precision::F64) => Some(UsualKernel::WhittedF64),
+            Self::Accurate(None) => Some(UsualKernel::Whitted),
+            Self::Accurate(Some(Precision::F32)) => Some(UsualKernel::WhittedF32),
+            Self::Accurate(Some(Precision::F64)) => Some(UsualKernel::WhittedF64),
             Self::Reference => Some(UsualKernel::Reference),
             Self::BySetting(_) => None,
         }

@@ -283,7 +283,7 @@ mod tests {
     fn lights_are_added_set_and_deleted_and_those_not_there_are_left_alone() {
         let mut document = empty();
         document.add_light().unwrap();
-        let light = Light { position: DVec3::ONE, intensity: DVec3::X };
+        let light = Light { position: DVec3::ONE, intensity: DVec3::X, ..Light::default() };
         document.set_light(1, light.clone()).unwrap();
         document.set_light(2, light.clone()).unwrap();
         document.delete_light(2).unwrap();
@@ -304,7 +304,11 @@ mod tests {
         assert!(document.set_max_depth(DEPTH_LIMIT + 1).is_err());
         assert!(document.set_vertical_fov(180.0).is_err());
         assert!(document.set_background(DVec3::NEG_X).is_err());
-        assert!(document.set_light(0, Light { position: DVec3::ZERO, intensity: DVec3::NEG_ONE }).is_err());
+        assert!(
+            document
+                .set_light(0, Light { position: DVec3::ZERO, intensity: DVec3::NEG_ONE, ..Light::default() })
+                .is_err()
+        );
         assert_eq!(document.scene(), document_of(SolidKind::Sphere).scene());
     }
 }

@@ -8,7 +8,6 @@ use serde::Serialize;
 use super::action::Kernel;
 use super::panel::Shown;
 use super::state::State;
-use crate::tracer::Precision;
 
 /// A widget as assistive programs see it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -98,8 +97,7 @@ impl Observation {
             refusal: None,
             kernel: match state.kernel {
                 Kernel::Course => "course",
-                Kernel::Accurate(Precision::F32) => "whitted f32",
-                Kernel::Accurate(Precision::F64) => "whitted f64",
+                Kernel::Accurate(_) => "whitted",
                 Kernel::Reference => "reference",
                 Kernel::BySetting(_) => "setting",
             }

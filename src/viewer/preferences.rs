@@ -51,6 +51,8 @@ pub enum Theme {
 #[serde(rename_all = "kebab-case")]
 pub enum UsualKernel {
     Course,
+    /// In `f32` where that is right.
+    Whitted,
     WhittedF32,
     WhittedF64,
     Reference,
@@ -88,7 +90,7 @@ impl Default for Preferences {
             fly_speed: 3.0,
             is_mouse_inverted: false,
             waits_for_display: true,
-            kernel: UsualKernel::WhittedF32,
+            kernel: UsualKernel::Whitted,
             // Edges look smooth, and a picture at rest is soon done.
             samples: 16,
         }

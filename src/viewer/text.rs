@@ -28,6 +28,8 @@ pub struct Words {
     pub status_untitled: &'static str,
     pub status_unsaved: &'static str,
     pub refusal_title: &'static str,
+    /// Over why the picture is not right.
+    pub too_coarse_title: &'static str,
     pub shader_error_title: &'static str,
 
     decimal_separator: &'static str,
@@ -136,6 +138,8 @@ pub struct GroupWords {
     pub kernel: &'static str,
     pub kernel_course: &'static str,
     pub kernel_course_hint: &'static str,
+    pub kernel_accurate: &'static str,
+    pub kernel_accurate_hint: &'static str,
     pub kernel_accurate_f32: &'static str,
     pub kernel_accurate_f32_hint: &'static str,
     pub kernel_accurate_f64: &'static str,

@@ -23,6 +23,7 @@ pub fn random_scene(seed: u64) -> Scene {
     let lights = (0..random.uniform(0.0, 5.0) as usize).map(|_| Light {
         position: 5.0 * random.vector(|random| random.uniform(-1.0, 1.0)),
         intensity: random.vector(|random| random.magnitude(low, high)),
+        ..Light::default()
     });
     Scene {
         lights: lights.collect(),

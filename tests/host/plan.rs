@@ -220,8 +220,11 @@ fn a_precision_asked_for_is_taken_or_refused() {
 fn f64_is_chosen_where_f32_is_not_known_to_keep_the_error() {
     let scene = mixed_scene();
     let precision = |scene: &Scene, error| within(scene, error).precision;
-    assert!(matches!(exact(&scene).precision.reason, Reason::RoundingIsNoCut { .. }));
+    // Balls that mirror each other may enlarge what rounding does: pixels are tried.
+    assert!(matches!(exact(&scene).precision.reason, Reason::RoundingIsHarmless { .. }));
     assert_eq!(exact(&scene).precision.choice, Precision::F32);
+    let dull = Scene { max_depth: 1, ..scene.clone() };
+    assert!(matches!(exact(&dull).precision.reason, Reason::RoundingIsNoCut { .. }));
 
     let enough = precision(&scene, 1.0 / 510.0);
     assert_eq!(enough.choice, Precision::F32);

@@ -64,7 +64,7 @@ fn one_sphere_is_shaded_by_equation_1_19() {
     let scene = Scene {
         lights: vec![
             light(0.0, 3.0, -4.0),
-            Light { position: DVec3::new(0.0, 0.0, -9.0), intensity: DVec3::splat(2.0) },
+            Light { position: DVec3::new(0.0, 0.0, -9.0), intensity: DVec3::splat(2.0), ..Light::default() },
         ],
         primitives: vec![primitive(sphere(DVec3::ZERO, 1.0), material(0.1, 0.5, specular))],
         ..Scene::default()

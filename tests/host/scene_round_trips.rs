@@ -109,7 +109,9 @@ fn any_camera() -> impl Strategy<Value = Camera> {
 
 fn any_scene() -> impl Strategy<Value = Scene> {
     let rgb = || [not_negative(), not_negative(), not_negative()].prop_map(DVec3::from_array);
-    let light = (any_vector(), rgb()).prop_map(|(position, intensity)| Light { position, intensity });
+    let radius = prop_oneof![Just(0.0), Just(0.01), not_negative()];
+    let light =
+        (any_vector(), rgb(), radius).prop_map(|(position, intensity, radius)| Light { position, intensity, radius });
     let primitive = (any_name(), any_solid(), any_material()).prop_map(|(name, solid, material)| Primitive {
         name,
         solid,

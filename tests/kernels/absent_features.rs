@@ -22,6 +22,7 @@ fn all_features() -> Scene {
     let ahead = |distance: f64| Light {
         position: camera.position + camera.direction.normalize() * distance,
         intensity: DVec3::ONE,
+        ..Light::default()
     };
     scene.lights = vec![ahead(1.0), ahead(2.0)];
     scene

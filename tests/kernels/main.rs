@@ -23,6 +23,7 @@ mod goldens;
 mod hierarchy;
 mod record_layout;
 mod rendering;
+mod right_by_default;
 mod sampling;
 mod sharing;
 mod stability;

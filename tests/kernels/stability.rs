@@ -21,13 +21,17 @@ fn wanted() -> Vec<String> {
         ("TG", 1),
         ("CF", 1),
         ("IN", 4),
-        ("ON", 4),
+        ("ON", 6),
         ("LT", 3),
         ("DG", 12),
         ("MR", 2),
         ("IT", 1),
         ("IM", 3),
         ("FV", 2),
+        ("WD", 6),
+        ("MS", 1),
+        ("LP", 4),
+        ("LR", 1),
     ];
     let mut ids: Vec<String> = numbered
         .iter()

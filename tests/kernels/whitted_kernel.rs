@@ -194,7 +194,7 @@ fn lt_a_light_inside_a_solid_or_on_a_surface_gives_finite_pixels() {
         for position in [DVec3::ZERO, DVec3::new(0.0, 0.0, -1.0), DVec3::new(0.2, 0.1, -1.0 - 1e-9)] {
             let scene = Scene {
                 camera: Camera { position: DVec3::NEG_Z * 6.0, ..Camera::default() },
-                lights: vec![Light { position, intensity: DVec3::ONE }, light(3.0, 3.0, -9.0)],
+                lights: vec![Light { position, intensity: DVec3::ONE, ..Light::default() }, light(3.0, 3.0, -9.0)],
                 primitives: vec![primitive(cube.clone(), material(0.1, 0.5, 0.5))],
                 ..Scene::default()
             };

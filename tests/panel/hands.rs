@@ -52,6 +52,8 @@ pub fn draw(ui: &mut egui::Ui, app: &mut App) {
         progress: Some(0.25),
         refusal: app.refusal,
         shader_error: None,
+        precision: None,
+        warning: None,
     };
     let shown = app.panel.show(ui, &app.state, &readings);
     app.picture = shown.picture;

@@ -67,8 +67,8 @@ fn camera_and_kernel_answer_to_their_widgets() {
         click(&mut window, button);
     }
     for (button, kernel) in [
-        ("Точная f64 (Vulkan)", Kernel::Accurate(Precision::F64)),
-        ("Точная f32 (Vulkan)", Kernel::Accurate(Precision::F32)),
+        ("Точная f64 (Vulkan)", Kernel::Accurate(Some(Precision::F64))),
+        ("Точная f32 (Vulkan)", Kernel::Accurate(Some(Precision::F32))),
         ("Курсовая (Vulkan)", Kernel::Course),
         ("Точная модель (ЦП)", Kernel::Reference),
     ] {

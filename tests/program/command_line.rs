@@ -65,7 +65,7 @@ fn render_writes_the_picture_and_reports_it_as_json() {
     for output in ["x.png", "x.exr"] {
         let report = place.json(&render("four", output, &["--size", "160x69", "--json", "--repeat", "2"]));
         let documented = "width height kernel precision error_bound samples_per_pixel scale device driver gpu_time_ns \
-                          samples_ns validation_messages validation_remarks"
+                          samples_ns validation_messages validation_remarks warning"
             .split(' ');
         assert_eq!(keys(&report), documented.collect());
         assert_eq!((&report["width"], &report["height"]), (&160.into(), &69.into()));
@@ -511,7 +511,7 @@ fn an_interrupt_stops_the_render_and_leaves_nothing() {
 fn plan_tells_what_runs_what_is_left_out_and_why() {
     let place = Place::new();
     let report = place.json(&["plan", "corridor", "--error", "1/510", "--size", "64x28", "--json"]);
-    let documented = ["bound", "bounds", "cuts", "decisions", "device", "error", "height", "scene", "width"];
+    let documented = ["bound", "bounds", "cuts", "decisions", "device", "error", "height", "scene", "warning", "width"];
     assert_eq!(keys(&report), documented.into());
     assert_eq!((&report["scene"], &report["width"], &report["height"]), (&"corridor".into(), &64.into(), &28.into()));
     let (error, bound) = (report["error"].as_f64().unwrap(), report["bound"].as_f64().unwrap());

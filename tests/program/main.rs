@@ -13,5 +13,6 @@ mod command_line;
 mod fps;
 mod report;
 mod setup;
+mod streams;
 mod trade;
 mod validate;

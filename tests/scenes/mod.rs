@@ -31,7 +31,7 @@ pub fn cube(center: DVec3, half_size: f64) -> Solid {
 }
 
 pub fn light(x: f64, y: f64, z: f64) -> Light {
-    Light { position: DVec3::new(x, y, z), intensity: DVec3::ONE }
+    Light { position: DVec3::new(x, y, z), intensity: DVec3::ONE, ..Light::default() }
 }
 
 /// Nothing but a light, somewhere near a camera of any direction and window.

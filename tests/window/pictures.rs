@@ -177,3 +177,22 @@ fn a_screenshot_is_taken_while_picture_follows_picture() {
     assert!(Frame::load(&desk.path("moving.exr")).unwrap() == desk.render("four", size));
     window.close();
 }
+
+/// A camera on a planet: f32 has no shadows there.
+#[test]
+fn where_f32_is_too_coarse_f64_draws_and_f32_is_warned_of() {
+    let desk = Desk::new(Locale::English, [900, 700]);
+    let reports = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/reports");
+    std::fs::copy(format!("{reports}/planet.json"), desk.path("planet.json")).unwrap();
+    let mut window = desk.view(&["planet.json"]);
+    let now = window.wait_until("it is drawn", |now| now.is_whole);
+    assert_eq!(now.kernel, "whitted f64");
+    let warning = "The picture is wrong: f32 is too coarse for it";
+    assert!(!now.says(warning), "{}", now.in_short());
+    window.click("Accurate f32 (Vulkan)");
+    let now = window.wait_until("as told, and warned of", |now| now.kernel == "whitted f32" && now.is_whole);
+    assert!(now.says(warning), "{}", now.in_short());
+    window.click("Accurate (Vulkan)");
+    window.wait_until("right again", |now| now.kernel == "whitted f64" && now.is_whole && !now.says(warning));
+    window.close();
+}

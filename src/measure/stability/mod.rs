@@ -4,6 +4,7 @@ mod judge;
 mod loading;
 mod pictures;
 mod rays;
+mod reported;
 mod scenes;
 mod sheet;
 mod solids;
@@ -152,5 +153,5 @@ impl Verdict {
 
 /// Every entry, in the catalogue's order.
 pub fn catalogue() -> Vec<Case> {
-    rays::cases().into_iter().chain(loading::cases()).chain(pictures::cases()).collect()
+    rays::cases().into_iter().chain(loading::cases()).chain(pictures::cases()).chain(reported::cases()).collect()
 }

@@ -38,12 +38,16 @@ pub(super) fn cases() -> Vec<Case> {
 }
 
 /// Pixels.
-fn size(subject: &Subject) -> [u32; 2] {
+pub(super) fn size(subject: &Subject) -> [u32; 2] {
     if subject.is_quick { [96, 60] } else { [320, 200] }
 }
 
 /// Linear RGB; `None` where the kernel does not take such scenes.
-fn picture(subject: &Subject, scene: &Scene, [width, height]: [u32; 2]) -> Result<Option<Vec<DVec3>>, TracerError> {
+pub(super) fn picture(
+    subject: &Subject,
+    scene: &Scene,
+    [width, height]: [u32; 2],
+) -> Result<Option<Vec<DVec3>>, TracerError> {
     let settings = Settings { kernel: subject.kernel, ..Settings::new(width, height) };
     match Tracer::new(&subject.device, scene, &settings) {
         Ok(mut tracer) => Ok(Some(tracer.render_f64()?)),
@@ -52,7 +56,7 @@ fn picture(subject: &Subject, scene: &Scene, [width, height]: [u32; 2]) -> Resul
     }
 }
 
-fn truth(scene: &Scene, [width, height]: [u32; 2]) -> Result<Image64, TracerError> {
+pub(super) fn truth(scene: &Scene, [width, height]: [u32; 2]) -> Result<Image64, TracerError> {
     reference::render(scene, width, height, &|_| ControlFlow::Continue(())).map_err(|error| match error {
         RenderError::Cancelled => TracerError::Stopped,
         error => TracerError::Refused(error.to_string()),

@@ -18,7 +18,7 @@ fn cube(center: DVec3, half_size: f64) -> Solid {
 }
 
 fn light(x: f64, y: f64, z: f64) -> Light {
-    Light { position: DVec3::new(x, y, z), intensity: DVec3::ONE }
+    Light { position: DVec3::new(x, y, z), intensity: DVec3::ONE, ..Light::default() }
 }
 
 /// One of each kind side by side, mirrors of each other.
@@ -84,7 +84,7 @@ pub(super) fn sharing_cubes() -> Scene {
 pub(super) fn lit_cube(light_position: DVec3) -> Scene {
     Scene {
         camera: Camera { position: DVec3::NEG_Z * 6.0, ..Camera::default() },
-        lights: vec![Light { position: light_position, intensity: DVec3::ONE }],
+        lights: vec![Light { position: light_position, intensity: DVec3::ONE, ..Light::default() }],
         primitives: vec![primitive(cube(DVec3::ZERO, 1.0), material(0.1, 0.5, 0.5))],
         ..Scene::default()
     }
@@ -108,7 +108,7 @@ pub(super) fn rooms(max_depth: u32) -> Vec<Scene> {
         camera: Camera { position: DVec3::new(0.1, 0.2, 0.3), vertical_fov_degrees: 120.0, ..Camera::default() },
         background: DVec3::ONE,
         // Dark: the course kernel needs one.
-        lights: vec![Light { position: DVec3::new(0.0, 1000.0, 0.0), intensity: DVec3::ZERO }],
+        lights: vec![Light { position: DVec3::new(0.0, 1000.0, 0.0), intensity: DVec3::ZERO, ..Light::default() }],
         max_depth,
         primitives: vec![
             primitive(solid, mirror.clone()),
@@ -124,7 +124,7 @@ pub(super) fn facing_mirrors(max_depth: u32) -> Scene {
         |x: f64| primitive(Solid::Sphere { center: DVec3::new(x, 0.0, 0.0), radius: 1.0 }, material(0.0, 0.0, 1.0));
     Scene {
         camera: Camera { position: DVec3::new(0.0, 0.5, -8.0), ..Camera::default() },
-        lights: vec![Light { position: DVec3::new(0.0, 0.0, -100.0), intensity: DVec3::ZERO }],
+        lights: vec![Light { position: DVec3::new(0.0, 0.0, -100.0), intensity: DVec3::ZERO, ..Light::default() }],
         primitives: vec![ball(-1.25), ball(1.25)],
         max_depth,
         ..Scene::default()

@@ -98,6 +98,11 @@ impl Cone {
         to_side.min(along.rounded()).min((self.height - along).rounded())
     }
 
+    /// How far a point is beyond the base's plane.
+    pub fn beyond_base(&self, point: DoubleDouble3) -> DoubleDouble {
+        point.dot(self.axis) - self.height
+    }
+
     /// Outward unit normal at a point of the side; at the apex, where there is none, against the axis.
     pub fn side_normal(&self, point: DoubleDouble3) -> DVec3 {
         let radial = point - self.axis * point.dot(self.axis);

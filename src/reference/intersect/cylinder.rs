@@ -60,6 +60,13 @@ impl Cylinder {
         (self.radius - radial).rounded().min((self.half_length - along.abs()).rounded())
     }
 
+    /// How far a point is beyond the plane of the base about `ends[end]`.
+    pub fn beyond(&self, end: u8, point: DoubleDouble3) -> DoubleDouble {
+        let along = point.dot(self.axis);
+        let outward = if end == 0 { -along } else { along };
+        outward - self.half_length
+    }
+
     /// Outward unit normal at a point of the body.
     pub fn body_normal(&self, point: DoubleDouble3) -> DVec3 {
         (point - self.axis * point.dot(self.axis)).normalized().rounded()

@@ -236,6 +236,26 @@ impl PreparedSolid {
         })
     }
 
+    /// How far a place is from the plane of a face, on this side of it; `None` of a curved face. A place that lies in the
+    /// plane to rounding is not on either side: 0.
+    pub fn height_above(&self, face: Face, side: Side, place: DVec3) -> Option<f64> {
+        let from_anchor = DoubleDouble3::from(place) - self.anchor;
+        let beyond = match (&self.shape, face) {
+            (Shape::Box(oriented_box), Face::Slab { axis, positive }) => {
+                oriented_box.beyond(axis, positive, from_anchor)
+            }
+            (Shape::Cylinder(cylinder), Face::End(end)) => cylinder.beyond(end, from_anchor),
+            (Shape::Cone(cone), Face::Base) => cone.beyond_base(from_anchor),
+            _ => return None,
+        };
+        let height = match side {
+            Side::Outside => beyond.rounded(),
+            Side::Inside => -beyond.rounded(),
+        };
+        let is_in_plane = height.abs() <= self.position_error(place, SURFACE_ERROR);
+        Some(if is_in_plane { 0.0 } else { height })
+    }
+
     /// How far a point that was computed to lie on this solid's surface may be off it.
     fn position_error(&self, point: DVec3, relative_error: f64) -> f64 {
         relative_error * (point.abs().max_element() + self.size)

@@ -40,6 +40,13 @@ impl OrientedBox {
         below_faces.map(|(&half, &axis)| (half - point.dot(axis).abs()).rounded()).fold(f64::INFINITY, f64::min)
     }
 
+    /// How far a point is beyond a face's plane.
+    pub fn beyond(&self, axis: u8, positive: bool, point: DoubleDouble3) -> DoubleDouble {
+        let along = point.dot(self.world_axes[usize::from(axis)]);
+        let outward = if positive { along } else { -along };
+        outward - self.half_size[usize::from(axis)]
+    }
+
     /// Outward unit normal of a slab face.
     pub fn normal(&self, axis: u8, positive: bool) -> DVec3 {
         let outward = self.world_axes[usize::from(axis)].rounded();

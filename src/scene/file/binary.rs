@@ -6,13 +6,13 @@
 //! | what | as |
 //! | --- | --- |
 //! | `zscene` CR LF | 8 bytes |
-//! | version, 1 | u32 |
+//! | version, 1, or 2 where a light has a radius other than 0.01 | u32 |
 //! | max_depth | u32 |
 //! | background | 3 numbers |
 //! | camera: position, direction, up, vertical_fov_degrees | 10 numbers |
 //! | projection: 0 is centered, 1 is course | u8 |
 //! | count of lights | u64 |
-//! | each: position, intensity | 6 numbers |
+//! | each: position, intensity, of version 2 radius | 6 or 7 numbers |
 //! | count of primitives | u64 |
 //! | each: kind (0 sphere, 1 box, 2 cylinder, 3 cone), and 128 where it has a name | u8 |
 //! | its name, if any, in UTF-8: bytes, and they | u64, bytes |
@@ -28,7 +28,10 @@ use crate::scene::{Camera, Light, Material, Primitive, Projection, Scene, Solid,
 
 /// With a line's end as text has it on some systems, so that a transfer that took the file for text is seen at once.
 const MAGIC: [u8; 8] = *b"zscene\r\n";
+/// All lights have the radius of the course's.
 const VERSION: u32 = 1;
+/// Each light has its radius.
+const VERSION_OF_RADII: u32 = 2;
 /// In a kind's byte.
 const HAS_NAME: u8 = 128;
 /// Bytes of a light, and of the smallest primitive.
@@ -40,7 +43,9 @@ pub(super) fn encode(scene: &Scene) -> Vec<u8> {
     let room = 256 + lights.len() * LIGHT_BYTES + primitives.len() * SMALLEST_PRIMITIVE_BYTES;
     let mut writer = Writer { bytes: Vec::with_capacity(room) };
     writer.raw(&MAGIC);
-    writer.raw(&VERSION.to_le_bytes());
+    // Programs that know no radii read scenes that need none.
+    let has_radii = lights.iter().any(|light| light.radius != Light::COURSE_RADIUS);
+    writer.raw(&if has_radii { VERSION_OF_RADII } else { VERSION }.to_le_bytes());
     writer.raw(&max_depth.to_le_bytes());
     writer.vector(*background);
     [camera.position, camera.direction, camera.up].into_iter().for_each(|vector| writer.vector(vector));
@@ -53,6 +58,9 @@ pub(super) fn encode(scene: &Scene) -> Vec<u8> {
     for light in lights {
         writer.vector(light.position);
         writer.vector(light.intensity);
+        if has_radii {
+            writer.number(light.radius);
+        }
     }
     writer.count(primitives.len());
     primitives.iter().for_each(|primitive| writer.primitive(primitive));
@@ -118,14 +126,16 @@ impl Writer {
 
 /// What the values mean is not looked at.
 pub(super) fn decode(bytes: &[u8]) -> Result<Scene, Fault> {
-    let mut reader = Reader { bytes, offset: 0, place: Place::Scene };
+    let mut reader = Reader { bytes, offset: 0, has_radii: false, place: Place::Scene };
     if reader.bytes::<8>()? != MAGIC {
         return Err(Fault { offset: 0, what: "not a zscene file: its first bytes are others".to_owned() });
     }
     let version = reader.u32()?;
-    if version != VERSION {
-        return Err(reader.fault(4, format!("version {version} of zscene files is not known here: only {VERSION} is")));
+    if ![VERSION, VERSION_OF_RADII].contains(&version) {
+        let known = format!("{VERSION} and {VERSION_OF_RADII} are");
+        return Err(reader.fault(4, format!("version {version} of zscene files is not known here: {known}")));
     }
+    reader.has_radii = version == VERSION_OF_RADII;
     let scene = reader.scene()?;
     let sum = crc32fast::hash(&bytes[..reader.offset]);
     let at = reader.offset;
@@ -142,6 +152,7 @@ struct Reader<'b> {
     bytes: &'b [u8],
     /// Of what is read next.
     offset: usize,
+    has_radii: bool,
     /// That belongs to this.
     place: Place<'b>,
 }
@@ -235,7 +246,8 @@ impl<'b> Reader<'b> {
     fn light(&mut self, index: usize) -> Result<Light, Fault> {
         self.place = Place::Light(index);
         let [position, intensity] = self.vectors()?;
-        Ok(Light { position, intensity })
+        let [radius] = if self.has_radii { self.numbers()? } else { [Light::COURSE_RADIUS] };
+        Ok(Light { position, intensity, radius })
     }
 
     fn primitive(&mut self, index: usize) -> Result<Primitive, Fault> {

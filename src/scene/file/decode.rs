@@ -35,11 +35,12 @@ fn camera(node: Node<'_>) -> Result<Camera, Fault> {
 }
 
 fn light(index: usize, node: Node<'_>) -> Result<Light, Fault> {
-    let fields = Fields::of(node, Place::Light(index), "", &["position", "intensity"])?;
+    let fields = Fields::of(node, Place::Light(index), "", &["position", "intensity", "radius"])?;
     let default = Light::default();
     Ok(Light {
         position: fields.read("position", vector, default.position)?,
         intensity: fields.read("intensity", vector, default.intensity)?,
+        radius: fields.read("radius", number, default.radius)?,
     })
 }
 

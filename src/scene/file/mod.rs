@@ -46,6 +46,13 @@ impl Scene {
         kind.decode(content).map_err(in_file)
     }
 
+    /// Reads a scene from a stream of what a file with this extension (`toml`, `json` or `zscene`) holds; the scene is
+    /// valid.
+    pub fn from_reader(reader: &mut dyn Read, extension: &str) -> Result<Self, SceneError> {
+        let kind = FileKind::of(&Path::new("-").with_extension(extension)).map_err(SceneError::refused)?;
+        kind.decode(kind.read_all(reader).map_err(SceneError::refused)?)
+    }
+
     /// Reads a scene from the text of a TOML file; the scene is valid.
     pub fn from_toml(source: &str) -> Result<Self, SceneError> {
         Format::Toml.decode(source)
@@ -129,6 +136,14 @@ impl FileKind {
         })
     }
 
+    /// Not an endless one, nor more of it than shows that it is too large.
+    fn read_all(self, reader: &mut dyn Read) -> Result<Vec<u8>, String> {
+        let mut bytes = Vec::new();
+        let read = reader.take(self.largest() + 1).read_to_end(&mut bytes);
+        read.map_err(|error| format!("could not be read: {error}"))?;
+        Ok(bytes)
+    }
+
     fn decode(self, content: Vec<u8>) -> Result<Scene, SceneError> {
         match self {
             Self::Zscene => Scene::from_zscene(&content),
@@ -209,11 +224,9 @@ fn read(path: &Path) -> Result<(FileKind, Vec<u8>), String> {
         return Err("is not a regular file".to_owned());
     }
     kind.check_size(metadata.len())?;
-    let mut bytes = Vec::new();
     // The file may have grown since its size was asked.
-    let file = File::open(path).map_err(unreadable)?;
-    file.take(kind.largest() + 1).read_to_end(&mut bytes).map_err(unreadable)?;
-    Ok((kind, bytes))
+    let mut file = File::open(path).map_err(unreadable)?;
+    Ok((kind, kind.read_all(&mut file)?))
 }
 
 fn write(path: &Path, content: &[u8]) -> io::Result<()> {

@@ -88,10 +88,9 @@ fn solid_fields(solid: &Solid) -> Vec<Field> {
 impl Format {
     fn light(self, light: &Light) -> String {
         let position = ("position", vector(light.position));
-        let intensity = vec![("intensity", vector(light.intensity))];
-        let default = [("intensity", vector(Light::default().intensity))];
+        let others = |light: &Light| vec![("intensity", vector(light.intensity)), ("radius", number(light.radius))];
         let mut fields = vec![position];
-        fields.extend(self.fields(intensity, &default));
+        fields.extend(self.fields(others(light), &others(&Light::default())));
         self.table(&fields)
     }
 

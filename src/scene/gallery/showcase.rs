@@ -18,7 +18,11 @@ pub(super) fn scene() -> Scene {
         },
         background: DVec3::new(0.06, 0.09, 0.14),
         max_depth: 8,
-        lights: vec![Light { position: DVec3::new(7.0, 6.5, -5.0), intensity: DVec3::new(1.0, 0.97, 0.9) }],
+        lights: vec![Light {
+            position: DVec3::new(7.0, 6.5, -5.0),
+            intensity: DVec3::new(1.0, 0.97, 0.9),
+            ..Light::default()
+        }],
         primitives: vec![
             named(
                 "floor",

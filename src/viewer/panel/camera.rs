@@ -65,8 +65,9 @@ fn show_kernel(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Acti
     let groups = &words.groups;
     let choices = [
         (Kernel::Course, groups.kernel_course, groups.kernel_course_hint),
-        (Kernel::Accurate(Precision::F32), groups.kernel_accurate_f32, groups.kernel_accurate_f32_hint),
-        (Kernel::Accurate(Precision::F64), groups.kernel_accurate_f64, groups.kernel_accurate_f64_hint),
+        (Kernel::Accurate(None), groups.kernel_accurate, groups.kernel_accurate_hint),
+        (Kernel::Accurate(Some(Precision::F32)), groups.kernel_accurate_f32, groups.kernel_accurate_f32_hint),
+        (Kernel::Accurate(Some(Precision::F64)), groups.kernel_accurate_f64, groups.kernel_accurate_f64_hint),
         (Kernel::Reference, groups.kernel_reference, groups.kernel_reference_hint),
     ];
     ui.label(groups.kernel);

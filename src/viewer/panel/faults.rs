@@ -1,4 +1,4 @@
-//! What keeps the picture from being drawn anew, in a box over the last good one.
+//! What keeps the picture from being drawn anew or right, in a box over it.
 
 use egui::{Area, Frame, Rect, RichText, ScrollArea, Ui};
 
@@ -9,9 +9,12 @@ use crate::viewer::text::Words;
 const MARGIN: f32 = 12.0;
 
 pub fn show(ui: &mut Ui, picture: Rect, words: &Words, readings: &Readings) {
-    let refusal = readings.refusal.map(|what| (words.refusal_title, what));
-    let shader_error = readings.shader_error.map(|what| (words.shader_error_title, what));
-    let faults: Vec<_> = refusal.into_iter().chain(shader_error).collect();
+    let told = [
+        (words.refusal_title, readings.refusal),
+        (words.shader_error_title, readings.shader_error),
+        (words.too_coarse_title, readings.warning),
+    ];
+    let faults: Vec<_> = told.into_iter().filter_map(|(title, what)| Some((title, what?))).collect();
     if faults.is_empty() || !picture.is_positive() {
         return;
     }

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::fields::{RGB, Scale, XYZ, group, vector};
+use super::fields::{RGB, Scale, XYZ, group, number_row, vector};
 use crate::scene::{LIGHT_LIMIT, Light, Scene};
 use crate::viewer::action::Action;
 use crate::viewer::text::Words;
@@ -27,9 +27,13 @@ fn show_light(ui: &mut Ui, words: &Words, index: usize, light: &Light, actions: 
     let name = if index == 0 { groups.light.to_owned() } else { format!("{} {number}", groups.light) };
     let position = vector(ui, &name, XYZ, light.position, &Scale::POSITION);
     let intensity = vector(ui, &name, RGB, light.intensity, &Scale::INTENSITY);
-    if position.is_some() || intensity.is_some() {
-        let edited =
-            Light { position: position.unwrap_or(light.position), intensity: intensity.unwrap_or(light.intensity) };
+    let radius = number_row(ui, &name, groups.radius, light.radius, &Scale::HALF_SIZE);
+    if position.is_some() || intensity.is_some() || radius.is_some() {
+        let edited = Light {
+            position: position.unwrap_or(light.position),
+            intensity: intensity.unwrap_or(light.intensity),
+            radius: radius.unwrap_or(light.radius),
+        };
         actions.push(Action::SetLight(index, edited));
     }
     if ui.button(format!("{} {number}", groups.delete_light)).clicked() {

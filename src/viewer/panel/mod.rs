@@ -28,6 +28,7 @@ use super::action::Action;
 use super::frame_times::FrameTimes;
 use super::preferences::{Preferences, Theme};
 use super::state::State;
+use crate::plan::Precision;
 
 /// What the panel shows of the tracing, which is not the state's to know.
 #[derive(Debug)]
@@ -40,6 +41,10 @@ pub struct Readings<'a> {
     pub progress: Option<f32>,
     /// Why the kernel does not draw this scene, in one line; the last good picture stays.
     pub refusal: Option<&'a str>,
+    /// Of the accurate kernel, where that draws.
+    pub precision: Option<Precision>,
+    /// Why the picture is not right.
+    pub warning: Option<&'a str>,
     /// A broken shader's compiler messages (`--watch`); the last good one draws.
     pub shader_error: Option<&'a str>,
 }

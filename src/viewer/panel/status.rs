@@ -13,8 +13,11 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, readings: &Readings) {
     let [width, height] = readings.picture_size;
     let kernel = match state.kernel {
         Kernel::Course => groups.kernel_course,
-        Kernel::Accurate(Precision::F32) => groups.kernel_accurate_f32,
-        Kernel::Accurate(Precision::F64) => groups.kernel_accurate_f64,
+        Kernel::Accurate(_) => match readings.precision {
+            Some(Precision::F32) => groups.kernel_accurate_f32,
+            Some(Precision::F64) => groups.kernel_accurate_f64,
+            None => groups.kernel_accurate,
+        },
         Kernel::Reference => groups.kernel_reference,
         Kernel::BySetting(_) => groups.kernel_by_setting,
     };

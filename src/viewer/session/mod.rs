@@ -2,6 +2,7 @@
 
 mod paint;
 mod picture;
+mod precision;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -13,6 +14,7 @@ use winit::event_loop::EventLoopProxy;
 use winit::keyboard::PhysicalKey;
 use winit::window::Window;
 
+use self::precision::Chosen;
 use super::action::{Action, Effect};
 use super::app::{Options, Wake};
 use super::frame_times::FrameTimes;
@@ -49,6 +51,10 @@ pub(super) struct Session {
     /// When the widgets are to be drawn again.
     widgets_due: Option<Instant>,
     refusal: Option<String>,
+    /// Of the accurate kernel; `None` where another draws.
+    chosen: Option<Chosen>,
+    /// Whether that is for the scene as it is, where it counts.
+    is_precision_known: bool,
     shader_error: Option<String>,
     #[cfg(debug_assertions)]
     shader_watch: Option<ShaderWatch>,
@@ -134,6 +140,8 @@ impl Session {
             frame_times: FrameTimes::default(),
             widgets_due: Some(Instant::now()),
             refusal: None,
+            chosen: None,
+            is_precision_known: true,
             shader_error: None,
             #[cfg(debug_assertions)]
             shader_watch: watch(&options, &proxy),

@@ -194,6 +194,8 @@ impl Session {
             frame_times: &self.frame_times,
             progress,
             refusal: self.refusal.as_deref(),
+            precision: self.chosen.as_ref().map(|chosen| chosen.precision),
+            warning: self.chosen.as_ref().and_then(|chosen| chosen.warning.as_deref()),
             shader_error: self.shader_error.as_deref(),
         };
         let shown = self.panel.show(ui, &self.state, &readings);
@@ -293,6 +295,9 @@ impl Session {
         observation.gpu_time_ms = self.frame_times.percentile_ns(50).map(|median_ns| median_ns as f64 / 1e6);
         observation.uploaded_bytes = screen.canvas.uploaded_bytes();
         observation.refusal = self.refusal.clone();
+        if let Some(chosen) = &self.chosen {
+            observation.kernel = format!("whitted {}", chosen.precision.name());
+        }
         observation.device_losses = self.losses.count;
         observation.validation_messages = self.messages.count();
         observer.tell(observation)

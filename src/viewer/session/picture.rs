@@ -5,10 +5,10 @@ use std::time::Instant;
 use super::super::action::Kernel;
 use super::super::app::Wake;
 use super::super::reference_worker::ReferenceWorker;
-use super::super::screen::{Screen, ScreenError};
+use super::super::screen::ScreenError;
 use super::super::state::Message;
 use super::{Reference, Screenshot, Session};
-use crate::plan::PlanError;
+use crate::plan::{Limits, PlanError, Precision};
 use crate::scene::Scene;
 use crate::tracer::{self, Canvas, TracerError, Work, limits_of};
 
@@ -40,29 +40,53 @@ impl Session {
         if screen.canvas.set_sampling(&mut screen.in_flight, self.state.sampling())? {
             self.frame_times.clear();
         }
-        let scene = self.state.document.scene();
-        let asked = match drawn_on_device(self.state.kernel, scene, screen, size) {
-            Ok(Some((kernel, work))) => {
-                self.reference = Reference::default();
-                if screen.canvas.use_kernel(kernel)? {
-                    self.frame_times.clear();
-                }
-                screen.canvas.set_work(work);
-                let shown = screen.canvas.show(scene);
-                if shown.is_ok() && self.state.is_continuous && self.screenshots.is_empty() {
-                    screen.canvas.trace_again(scene)
-                } else {
-                    shown
-                }
-            }
-            Ok(None) => self.ask_for_reference(),
-            Err(error) => Err(TracerError::Refused(error.to_string())),
-        };
+        let limits = limits_of(screen.canvas.device().description());
+        let asked = self.ask_at_precision(&limits, size);
         self.refusal = match asked {
             Ok(()) => None,
             Err(TracerError::Refused(reason)) => Some(reason),
             Err(error) => return Err(error.into()),
         };
+        Ok(())
+    }
+
+    fn ask_at_precision(&mut self, limits: &Limits, size: [u32; 2]) -> Result<(), TracerError> {
+        let refused = |error: PlanError| TracerError::Refused(error.to_string());
+        self.choose_precision(limits, size, false).map_err(refused)?;
+        self.ask_kernel(limits, size)?;
+        // The scene did not change since the last frame.
+        let is_at_rest = self.screen.as_ref().is_some_and(|screen| screen.canvas.is_whole());
+        if is_at_rest && !self.is_precision_known {
+            self.choose_precision(limits, size, true).map_err(refused)?;
+            self.ask_kernel(limits, size)?;
+        }
+        Ok(())
+    }
+
+    fn ask_kernel(&mut self, limits: &Limits, size: [u32; 2]) -> Result<(), TracerError> {
+        let scene = self.state.document.scene();
+        let precision = self.chosen.as_ref().map_or(Precision::F32, |chosen| chosen.precision);
+        let (kernel, work) = match self.state.kernel {
+            Kernel::Course => (tracer::Kernel::Course, Work::WHOLE),
+            Kernel::Accurate(_) => (tracer::Kernel::Whitted(precision), Work::WHOLE),
+            Kernel::Reference => return self.ask_for_reference(),
+            // What may be left out is another thing for every scene.
+            Kernel::BySetting(setting) => {
+                let drawing = setting.drawing(scene, limits, size[0], size[1]);
+                let settings = drawing.map_err(|error| TracerError::Refused(error.to_string()))?.settings;
+                (settings.kernel, Work::of(&settings))
+            }
+        };
+        self.reference = Reference::default();
+        let Some(screen) = &mut self.screen else { return Ok(()) };
+        if screen.canvas.use_kernel(kernel)? {
+            self.frame_times.clear();
+        }
+        screen.canvas.set_work(work);
+        screen.canvas.show(scene)?;
+        if self.state.is_continuous && self.screenshots.is_empty() {
+            screen.canvas.trace_again(scene)?;
+        }
         Ok(())
     }
 
@@ -112,7 +136,7 @@ impl Session {
 
     fn is_shown(&self, is_traced: impl Fn(&Canvas) -> bool) -> bool {
         let is_traced = self.screen.as_ref().is_some_and(|screen| is_traced(&screen.canvas));
-        self.refusal.is_none() && self.reference.worker.is_none() && is_traced
+        self.refusal.is_none() && self.reference.worker.is_none() && self.is_precision_known && is_traced
     }
 
     /// Of finished pictures only: until then they wait, and one whose scene has changed meanwhile is not taken.
@@ -146,24 +170,4 @@ impl Session {
         }
         Ok(())
     }
-}
-
-/// The device's kernel, and what it traces of the scene; `None` where the CPU draws.
-fn drawn_on_device(
-    kernel: Kernel,
-    scene: &Scene,
-    screen: &Screen,
-    [width, height]: [u32; 2],
-) -> Result<Option<(tracer::Kernel, Work)>, PlanError> {
-    Ok(match kernel {
-        Kernel::Course => Some((tracer::Kernel::Course, Work::WHOLE)),
-        Kernel::Accurate(precision) => Some((tracer::Kernel::Whitted(precision), Work::WHOLE)),
-        Kernel::Reference => None,
-        // What may be left out is another thing for every scene.
-        Kernel::BySetting(setting) => {
-            let limits = limits_of(screen.canvas.device().description());
-            let settings = setting.drawing(scene, &limits, width, height)?.settings;
-            Some((settings.kernel, Work::of(&settings)))
-        }
-    })
 }

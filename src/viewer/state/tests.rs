@@ -117,14 +117,14 @@ fn actions_under_a_dialog_are_ignored_but_the_window_s_settings() {
 
 #[test]
 fn the_first_kernel_is_the_accurate_one_with_samples_to_come() {
-    assert_eq!(start().kernel, Kernel::Accurate(Precision::F32));
+    assert_eq!(start().kernel, Kernel::Accurate(None));
     assert_eq!(start().sampling(), Sampling { samples: 16, scale: 1.0 });
 }
 
 #[test]
 fn a_kernel_and_samples_that_are_chosen_are_those_of_the_next_run() {
     let mut state = start();
-    for kernel in [Kernel::Course, Kernel::Accurate(Precision::F64), Kernel::Reference] {
+    for kernel in [Kernel::Course, Kernel::Accurate(Some(Precision::F64)), Kernel::Reference] {
         state.apply(Action::SetKernel(kernel));
         let next = State::new(Document::new(Scene::default(), None), state.preferences.clone(), None);
         assert_eq!(next.kernel, kernel);
@@ -137,7 +137,7 @@ fn a_kernel_and_samples_that_are_chosen_are_those_of_the_next_run() {
 #[test]
 fn what_a_run_is_asked_to_begin_with_is_not_remembered_until_it_is_chosen() {
     let course = || start().drawn_by(Some(Kernel::Course), None);
-    assert_eq!((course().kernel, course().preferences.kernel), (Kernel::Course, UsualKernel::WhittedF32));
+    assert_eq!((course().kernel, course().preferences.kernel), (Kernel::Course, UsualKernel::Whitted));
     let setting = Setting::default();
     let mut state = start().drawn_by(Some(Kernel::Course), Some(setting));
     assert_eq!(state.kernel, Kernel::BySetting(setting), "the file goes before the scene");
@@ -375,7 +375,7 @@ fn any_action() -> impl Strategy<Value = Action> {
         2 => Just(Action::Delete),
         1 => Just(Action::AddLight),
         1 => (index(), vector()).prop_map(|(index, intensity)| {
-            Action::SetLight(index, Light { position: DVec3::ZERO, intensity })
+            Action::SetLight(index, Light { position: DVec3::ZERO, intensity, ..Light::default() })
         }),
         1 => index().prop_map(Action::DeleteLight),
         1 => vector().prop_map(Action::SetBackground),

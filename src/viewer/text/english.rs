@@ -71,6 +71,8 @@ pub(super) static WORDS: Words = Words {
         kernel_course: "Course (Vulkan)",
         kernel_course_hint: "The course work's kernel on the Vulkan device, with all its shortcuts: cones lack their \
             base, highlights ignore where the light is, there is one light",
+        kernel_accurate: "Accurate (Vulkan)",
+        kernel_accurate_hint: "The accurate model on the Vulkan device: in f32 where the picture is right in it, else in f64",
         kernel_accurate_f32: "Accurate f32 (Vulkan)",
         kernel_accurate_f32_hint: "The accurate model (equation 1.19) on the Vulkan device: bases of cones, any number \
             of lights, no shortcuts",
@@ -156,6 +158,7 @@ pub(super) static WORDS: Words = Words {
     status_untitled: "Untitled",
     status_unsaved: "unsaved changes",
     refusal_title: "The kernel does not draw this scene",
+    too_coarse_title: "The picture is wrong: f32 is too coarse for it",
     shader_error_title: "Error in the shader",
     decimal_separator: ".",
     milliseconds: "ms",

@@ -75,6 +75,8 @@ pub(super) static WORDS: Words = Words {
         kernel_course: "Курсовая (Vulkan)",
         kernel_course_hint: "Ядро курсовой работы на устройстве Vulkan, со всеми её упрощениями: у конуса нет \
             основания, блик не зависит от места источника, источник один",
+        kernel_accurate: "Точная (Vulkan)",
+        kernel_accurate_hint: "Точная модель на устройстве Vulkan: в f32, где картинка в нём верна, иначе в f64",
         kernel_accurate_f32: "Точная f32 (Vulkan)",
         kernel_accurate_f32_hint: "Точная модель (уравнение 1.19) на устройстве Vulkan: основания конусов, сколько \
             угодно источников, без упрощений курсовой",
@@ -162,6 +164,7 @@ pub(super) static WORDS: Words = Words {
     status_untitled: "Без имени",
     status_unsaved: "есть несохранённые изменения",
     refusal_title: "Ядро не рисует эту сцену",
+    too_coarse_title: "Картинка неверна: точности f32 не хватает",
     shader_error_title: "Ошибка в шейдере",
     decimal_separator: ",",
     milliseconds: "мс",

@@ -1,0 +1,267 @@
+//! Whether a picture drawn in `f32` is right.
+//!
+//! Where no length of a scene is many thousand times another, rounding moves nothing by what a picture could show: that is
+//! tested, over the catalogue and random scenes. Elsewhere a sample of the picture's pixels is traced twice on the CPU: by
+//! the [reference](crate::reference), and with the numbers, formulations and roundings of the `f32` kernel. That is an
+//! estimate, tested against the kernel itself on thousands of random scenes (`tests/kernels/right_by_default.rs`).
+
+mod line;
+mod solids;
+mod world;
+
+use std::fmt;
+
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+use super::Precision;
+use super::precision::brightest_source;
+use super::solids::{outside_by, size};
+use crate::reference::{PrimaryRays, World};
+use crate::scene::{BoundingSphere, KernelFrame, Primitive, Scene, Solid};
+use world::F32World;
+
+/// What rounding to `f32` does to a picture, as far as is known.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Rounding {
+    /// Lengths are too near each other for anything that it could show.
+    Mild,
+    /// No more than a stray one of the pixels that were tried is changed.
+    Harmless { tried: usize },
+    /// So many of the pixels that were tried are changed by more than [`Precision::rounding_bar`].
+    Harmful { wrong: usize, tried: usize, cause: Cause },
+}
+
+/// Where the trouble comes from: indices of primitives, world lengths.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Cause {
+    /// The primitive whose numbers are rounded most.
+    pub primitive: usize,
+    pub size: f64,
+    /// How far rounding moves its surface.
+    pub shift: f64,
+    pub near: Near,
+}
+
+/// What is too small or too near for such a shift.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Near {
+    Primitive { primitive: usize, size: f64 },
+    Camera { distance: f64 },
+}
+
+impl fmt::Display for Cause {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let &Self { primitive, size, shift, near } = self;
+        write!(
+            f,
+            "primitive {} is {} wide: f32 moves its surface by {}, and ",
+            primitive + 1,
+            Short(size),
+            Short(shift)
+        )?;
+        match near {
+            Near::Primitive { primitive, size } => write!(f, "primitive {} is {} wide", primitive + 1, Short(size)),
+            Near::Camera { distance } => write!(f, "the camera is {} from it", Short(distance)),
+        }
+    }
+}
+
+/// Two digits, in words of a picture and not of a bound.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(value) = *self;
+        if value == 0.0 || (0.01..1000.0).contains(&value) {
+            // Without the digits that a rounded number does not have.
+            let rounded: f64 = format!("{value:.1e}").parse().unwrap_or(value);
+            write!(f, "{rounded}")
+        } else {
+            write!(f, "{value:.1e}")
+        }
+    }
+}
+
+/// Pixels that are tried, at most and at least: fewer where there are many solids.
+const MOST_TRIED: usize = 2048;
+const FEWEST_TRIED: usize = 64;
+
+/// Solids times pixels that are tried.
+const MOST_WORK: usize = 1 << 23;
+
+/// Of the pixels that are tried, so many may be wrong: of a picture with 5 in 1000 wrong, more than that of 2048 are, with a
+/// probability of 99.7 %.
+const FEW: f64 = 0.001;
+
+/// Where only mirrors are in doubt: they change single pixels at the edges of images in images, which `f64` would be dear
+/// for.
+const FEW_IN_MIRRORS: f64 = 0.005;
+
+/// In scenes whose lengths differ by less than that, a surface moves by at most 8u of that, half a hundredth of the
+/// smallest solid.
+const MILD_RATIO: f64 = 8192.0;
+
+/// An angle's error is at most that of a surface, 8u, against its size; where mirrors enlarge it to less than 1/510, it is
+/// not seen.
+const MILD_RATIO_IN_MIRRORS: f64 = 1.0 / (510.0 * 8.0 * (f32::EPSILON as f64 / 2.0));
+
+/// A quarter of a pixel.
+const MILD_SHIFT_PIXELS: f64 = 0.25;
+
+/// How much a curved mirror enlarges the error of an angle, at most in scenes where that is not tried: measured as 5 and
+/// more between facing spheres (catalogue MR-2).
+const MIRROR_GAIN: f64 = 5.0;
+
+/// For a picture of so many pixels in `depth` generations, silhouettes of which that are seen directly move by no more than
+/// `shift_pixels`.
+pub fn of_f32(scene: &Scene, depth: u32, size: [u32; 2], shift_pixels: f64) -> Rounding {
+    let ratio = if scene.primitives.is_empty() { 0.0 } else { ratio_of_lengths(scene) };
+    let are_lengths_mild = shift_pixels <= MILD_SHIFT_PIXELS && ratio <= MILD_RATIO;
+    let are_mirrors_mild = ratio * gain_of_mirrors(scene, depth) <= MILD_RATIO_IN_MIRRORS;
+    let allowed = match (are_lengths_mild, are_mirrors_mild) {
+        (true, true) => return Rounding::Mild,
+        (true, false) => FEW_IN_MIRRORS,
+        (false, _) => FEW,
+    };
+    let scene = Scene { max_depth: depth, ..scene.clone() };
+    try_pixels(&scene, size, allowed)
+}
+
+/// How many times the smallest solid, or the distance of the camera or a light from one, the whole scene is.
+fn ratio_of_lengths(scene: &Scene) -> f64 {
+    let frame = KernelFrame::of(scene);
+    // No coordinate is larger.
+    let extent = 2.0 / frame.scale;
+    let nearest = |place: DVec3| {
+        let distance = |primitive: &Primitive| outside_by(&primitive.solid, place).abs();
+        scene.primitives.par_iter().map(distance).reduce(|| f64::INFINITY, f64::min)
+    };
+    let smallest = scene.primitives.par_iter().map(|primitive| BoundingSphere::of(&primitive.solid).radius);
+    let smallest = smallest.reduce(|| f64::INFINITY, f64::min);
+    let eyes = std::iter::once(scene.camera.position).chain(scene.lights.iter().map(|light| light.position));
+    extent / eyes.map(nearest).fold(smallest, f64::min)
+}
+
+/// How many times an error of an angle may be enlarged, and then seen, by curved mirrors.
+fn gain_of_mirrors(scene: &Scene, depth: u32) -> f64 {
+    let is_curved = |primitive: &&Primitive| !matches!(primitive.solid, Solid::Box { .. });
+    let mirrors = scene.primitives.iter().filter(is_curved).map(|primitive| primitive.material.specular);
+    (MIRROR_GAIN * mirrors.fold(0.0, f64::max)).max(1.0).powi(depth as i32 - 1)
+}
+
+/// Harmful where more than this share of the pixels is wrong, of few pixels more than one.
+fn try_pixels(scene: &Scene, size: [u32; 2], allowed: f64) -> Rounding {
+    let frame = KernelFrame::of(scene);
+    let (exact, rounded) = (World::new(scene), F32World::new(scene, &frame));
+    let rays = PrimaryRays::new(&scene.camera, size[0], size[1]);
+    let pixels = pixels(size, (MOST_WORK / scene.primitives.len()).clamp(FEWEST_TRIED, MOST_TRIED));
+    let tolerance = (Precision::F32.rounding_bar() * brightest_source(scene).max(1.0)) as f32;
+    let wrong: Vec<Vec<u32>> = pixels
+        .par_iter()
+        .filter_map(|&[column, row]| {
+            let (right, seen) =
+                (exact.look_along(rays.through(column, row)), rounded.look_through([column, row], size));
+            // Not a number counts as wrong.
+            let is_right = (right.color.as_vec3() - seen.color).abs().cmple(Vec3::splat(tolerance)).all();
+            let first = Some(right.first_hit).filter(|primitive| (*primitive as usize) < scene.primitives.len());
+            (!is_right).then(|| seen.primitives.into_iter().chain(first).collect())
+        })
+        .collect();
+    let few = (allowed * pixels.len() as f64) as usize;
+    if wrong.len() <= few.max(1) {
+        return Rounding::Harmless { tried: pixels.len() };
+    }
+    let met: Vec<usize> = wrong.iter().flatten().map(|&primitive| primitive as usize).collect();
+    Rounding::Harmful { wrong: wrong.len(), tried: pixels.len(), cause: cause(scene, &frame, &met) }
+}
+
+/// Pixels all over a picture, so many or all that there are; counted from the left and from the top.
+fn pixels([width, height]: [u32; 2], count: usize) -> Vec<[u32; 2]> {
+    if u64::from(width) * u64::from(height) <= count as u64 {
+        return (0..height).flat_map(|row| (0..width).map(move |column| [column, row])).collect();
+    }
+    // Roberts' R2 sequence: the powers of 1/1.3247…, the root of x³ = x + 1.
+    let place = |index: usize, step: f64, side: u32| {
+        let share = (0.5 + index as f64 * step).fract();
+        ((share * f64::from(side)) as u32).min(side - 1)
+    };
+    const STEP_X: f64 = 0.754_877_666_246_692_8;
+    const STEP_Y: f64 = 0.569_840_290_998_053_3;
+    (0..count).map(|index| [place(index, STEP_X, width), place(index, STEP_Y, height)]).collect()
+}
+
+/// `met`: by the paths of wrong pixels.
+fn cause(scene: &Scene, frame: &KernelFrame, met: &[usize]) -> Cause {
+    let solid = |primitive: usize| &scene.primitives[primitive].solid;
+    let rounded = |primitive: usize| {
+        let place = (solid(primitive).position() - frame.origin).abs().max_element();
+        place.max(size(solid(primitive)))
+    };
+    let all = 0..scene.primitives.len();
+    let widest =
+        |primitives: &mut dyn Iterator<Item = usize>| primitives.max_by(|&a, &b| rounded(a).total_cmp(&rounded(b)));
+    let primitive = widest(&mut met.iter().copied()).or_else(|| widest(&mut all.clone())).unwrap_or(0);
+    let others = all.filter(|&other| other != primitive).map(|other| (other, size(solid(other))));
+    let smallest = others.min_by(|(_, a), (_, b)| a.total_cmp(b));
+    let distance = outside_by(solid(primitive), scene.camera.position).abs();
+    let near = match smallest {
+        Some((primitive, size)) if size <= distance => Near::Primitive { primitive, size },
+        _ => Near::Camera { distance },
+    };
+    let shift = Precision::F32.unit_roundoff() * rounded(primitive);
+    Cause { primitive, size: size(solid(primitive)), shift, near }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::gallery;
+
+    /// Whether it is mild or not.
+    #[test]
+    fn every_scene_of_the_gallery_is_right_in_f32() {
+        for entry in gallery::entries() {
+            let scene = gallery::scene(&entry.name).unwrap();
+            if !scene.primitives.is_empty() {
+                let rounding = try_pixels(&scene, [1621, 701], FEW);
+                assert!(matches!(rounding, Rounding::Harmless { .. }), "{}: {rounding:?}", entry.name);
+            }
+        }
+    }
+
+    #[test]
+    fn large_scenes_of_like_solids_stay_with_f32() {
+        for name in ["squares-10000", "squares-1000000", "cloud-10000"] {
+            let scene = gallery::scene(name).unwrap();
+            let rounding = of_f32(&scene, scene.max_depth, [1621, 701], 0.0);
+            assert!(!matches!(rounding, Rounding::Harmful { .. }), "{name}: {rounding:?}");
+        }
+    }
+
+    #[test]
+    fn a_cause_is_told_in_numbers_of_the_scene() {
+        let near = Near::Primitive { primitive: 1, size: 1.0 };
+        let cause = Cause { primitive: 0, size: 6.371e6, shift: 0.3797, near };
+        let told = "primitive 1 is 6.4e6 wide: f32 moves its surface by 0.38, and primitive 2 is 1 wide";
+        assert_eq!(cause.to_string(), told);
+        let near = Near::Camera { distance: 2.0 };
+        let cause = Cause { primitive: 2, size: 12.0, shift: 7e-7, near };
+        assert_eq!(
+            cause.to_string(),
+            "primitive 3 is 12 wide: f32 moves its surface by 7.0e-7, and the camera is 2 from it"
+        );
+    }
+
+    #[test]
+    fn pixels_lie_all_over_a_picture_and_each_is_tried_where_there_are_few() {
+        assert_eq!(pixels([3, 2], 6), [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [2, 1]]);
+        let many = pixels([1621, 701], 2048);
+        assert_eq!(many.len(), 2048);
+        for [left, top] in [[0, 0], [1216, 526], [700, 300]] {
+            let inside =
+                many.iter().filter(|&&[x, y]| (left..left + 405).contains(&x) && (top..top + 175).contains(&y));
+            assert!((100..160).contains(&inside.count()), "{left} {top}");
+        }
+    }
+}

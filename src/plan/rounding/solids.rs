@@ -1,0 +1,372 @@
+//! The four solids as the `f32` kernel meets them (`glsl/whitted/meet.glsl`, `sphere.glsl` and so on).
+
+use glam::{DMat3, DVec3, Vec3};
+
+use super::line::{AxisLine, Face, Interval, Line, Ray, ordered_roots};
+use crate::plan::Precision;
+use crate::scene::{KernelFrame, Solid, world_from_box};
+
+/// Kernel frame. What the kernel has as a value and its error is `f64`.
+#[derive(Debug, Clone)]
+pub enum F32Solid {
+    Sphere { center: Vec3, radius: f32 },
+    Box { center: Vec3, half_size: Vec3, axes: DMat3 },
+    Cylinder { center: DVec3, axis: DVec3, radius: f32, half_length: f32 },
+    Cone { apex: Vec3, axis: DVec3, height: f32, base_radius: f32, sine: f32, cosine: f32 },
+}
+
+/// What a ray's origin is to a solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Origin {
+    /// A point as stored.
+    Free,
+    /// A rounded point of another solid's surface.
+    OtherSurface,
+    /// A rounded point of this solid's surface, left inwards.
+    OwnInside(Face),
+}
+
+#[derive(Debug, Clone, Copy)]
+pub struct F32Hit {
+    pub t: f32,
+    pub point: Vec3,
+    /// Unit, towards the side the ray came from.
+    pub normal: Vec3,
+    /// Of the solid.
+    pub size: f32,
+    pub face: Face,
+    pub inside: bool,
+}
+
+/// `SURFACE_ERROR` of the kernel: 8u.
+pub const SURFACE_ERROR: f32 = 4.0 * f32::EPSILON;
+
+enum Met {
+    Plain(Line),
+    AboutAxis(AxisLine),
+}
+
+impl Met {
+    fn line(&self) -> &Line {
+        match self {
+            Self::Plain(line) | Self::AboutAxis(AxisLine { line, .. }) => line,
+        }
+    }
+}
+
+impl F32Solid {
+    /// `None` where the kernel leaves it out as too small.
+    pub fn of(solid: &Solid, frame: &KernelFrame) -> Self {
+        let scale = frame.scale;
+        let length = |length: f64| (length * scale) as f32;
+        match *solid {
+            Solid::Sphere { center, radius } => {
+                Self::Sphere { center: frame.point(center).as_vec3(), radius: length(radius) }
+            }
+            Solid::Box { center, half_size, rotation_degrees } => Self::Box {
+                center: frame.point(center).as_vec3(),
+                half_size: (half_size * scale).as_vec3(),
+                axes: world_from_box(rotation_degrees),
+            },
+            Solid::Cylinder { ends: [a, b], radius } => {
+                let (half_a, half_b) = (frame.point(a) * 0.5, frame.point(b) * 0.5);
+                let half_axis = half_b - half_a;
+                Self::Cylinder {
+                    center: half_a + half_b,
+                    axis: half_axis.normalize_or(DVec3::Y),
+                    radius: length(radius),
+                    half_length: half_axis.length() as f32,
+                }
+            }
+            Solid::Cone { apex, axis, height, half_angle_degrees } => {
+                let (sine, cosine) = half_angle_degrees.to_radians().sin_cos();
+                Self::Cone {
+                    apex: frame.point(apex).as_vec3(),
+                    axis: axis.normalize_or(DVec3::Y),
+                    height: length(height),
+                    base_radius: length(height * sine / cosine),
+                    sine: sine as f32,
+                    cosine: cosine as f32,
+                }
+            }
+        }
+    }
+
+    pub fn size(&self) -> f32 {
+        match *self {
+            Self::Sphere { radius, .. } => radius,
+            Self::Box { half_size, .. } => half_size.max_element(),
+            Self::Cylinder { radius, half_length, .. } => radius.max(half_length),
+            Self::Cone { height, base_radius, .. } => height.max(base_radius),
+        }
+    }
+
+    fn meet_line(&self, ray: &Ray) -> Met {
+        match *self {
+            Self::Sphere { center, .. } | Self::Box { center, .. } => Met::Plain(Line::about(ray, center.as_dvec3())),
+            Self::Cylinder { center, axis, radius, half_length } => {
+                Met::AboutAxis(AxisLine::about(Line::about(ray, center), axis, radius.hypot(half_length)))
+            }
+            Self::Cone { apex, axis, height, base_radius, .. } => {
+                Met::AboutAxis(AxisLine::about(Line::about(ray, apex.as_dvec3()), axis, height.hypot(base_radius)))
+            }
+        }
+    }
+
+    /// The first point ahead of the ray's origin, if there is one.
+    pub fn meet(&self, ray: &Ray, origin: Origin) -> Option<F32Hit> {
+        let at = self.meet_line(ray);
+        let interval = self.interval(&at);
+        let (is_met, line) = (interval.is_met(), at.line());
+        let size = self.size();
+        let place = if origin == Origin::Free { 0.0 } else { ray.origin.abs().max_element() as f32 };
+        let position_error = SURFACE_ERROR * (place + size);
+        let is_own = matches!(origin, Origin::OwnInside(_));
+        let inside = is_own || self.depth(line.origin) >= -position_error;
+        let mut s = if inside { interval.far } else { interval.near };
+        let mut t = line.t_at(s);
+        let mut face = if inside { interval.far_face } else { interval.near_face };
+        let mut is_ahead = is_met && t > 0.0;
+        if inside && !is_own {
+            let least_depth = if origin == Origin::Free { 0.25 * position_error } else { position_error };
+            let start = interval.near.max(-line.start());
+            let middle = line.closest.as_vec3() + (0.5 * (start + interval.far)) * line.direction;
+            is_ahead = is_ahead && self.depth(middle) > least_depth;
+        }
+        let leaves_here = is_own && !is_ahead;
+        if leaves_here {
+            t = 0.0;
+            s = -line.start();
+            if let Origin::OwnInside(own) = origin
+                && !is_met
+            {
+                face = own;
+            }
+        }
+        if !(is_ahead || leaves_here) {
+            return None;
+        }
+        let (point, normal) = self.surface(&at, s, face);
+        let point = if leaves_here { ray.origin.as_vec3() } else { point };
+        Some(F32Hit { t, point, normal: if inside { -normal } else { normal }, size, face, inside })
+    }
+
+    fn interval(&self, at: &Met) -> Interval {
+        match (self, at) {
+            (&Self::Sphere { radius, .. }, Met::Plain(line)) => {
+                let value = line.closest.as_vec3();
+                let error = (line.closest - value.as_dvec3()).as_vec3();
+                let half_chord_squared = radius * radius - (value.dot(value) + 2.0 * value.dot(error));
+                if half_chord_squared < 0.0 {
+                    return Interval::EMPTY;
+                }
+                let s = (half_chord_squared / line.direction_squared).sqrt();
+                Interval::curved(-s, s)
+            }
+            (&Self::Box { half_size, axes, .. }, Met::Plain(line)) => {
+                let slab = |axis: usize| {
+                    let across = axes.col(axis);
+                    let offset = across.dot(line.closest) as f32;
+                    let slope = across.dot(line.direction.as_dvec3()) as f32;
+                    let face = |positive| Face::Slab { axis, positive };
+                    let half = half_size[axis];
+                    Interval::between_planes(offset, slope, (-half, face(false)), (half, face(true)))
+                };
+                slab(0).intersection(slab(1)).intersection(slab(2))
+            }
+            (&Self::Cylinder { axis, radius, half_length, .. }, Met::AboutAxis(at)) => {
+                let end = |positive| Face::End { positive };
+                let slab = Interval::between_planes(
+                    at.along,
+                    at.along_slope,
+                    (-half_length, end(false)),
+                    (half_length, end(true)),
+                );
+                let mut inside = body(at, radius).intersection(slab);
+                let to_base = |face: Face, s: f32| match face {
+                    Face::End { positive } => {
+                        at.nearer_to_plane(axis, if positive { half_length } else { -half_length }, s)
+                    }
+                    _ => s,
+                };
+                inside.near = to_base(inside.near_face, inside.near);
+                inside.far = to_base(inside.far_face, inside.far);
+                inside
+            }
+            (&Self::Cone { axis, height, sine, cosine, .. }, Met::AboutAxis(at)) => {
+                let slab =
+                    Interval::between_planes(at.along, at.along_slope, (0.0, Face::Curved), (height, Face::Base));
+                let side = nappe(at, sine, cosine);
+                let mut inside = side.intersection(slab);
+                if !inside.is_met() {
+                    return Interval::EMPTY;
+                }
+                let length = side.far - side.near;
+                let nearer = |face: Face, s: f32| match face {
+                    Face::Base => at.nearer_to_plane(axis, height, s),
+                    _ => nearer_to_side(at, axis, sine, cosine, s, length),
+                };
+                inside.near = nearer(inside.near_face, inside.near);
+                inside.far = nearer(inside.far_face, inside.far);
+                inside
+            }
+            // A line is made for its solid.
+            _ => Interval::EMPTY,
+        }
+    }
+
+    /// Distance from a point inside to the surface; negative outside.
+    fn depth(&self, from_anchor: Vec3) -> f32 {
+        match *self {
+            Self::Sphere { radius, .. } => radius - from_anchor.length(),
+            Self::Box { half_size, axes, .. } => {
+                let in_axes = Vec3::from_array(
+                    [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| axis.as_vec3().dot(from_anchor)),
+                );
+                (half_size - in_axes.abs()).min_element()
+            }
+            Self::Cylinder { axis, radius, half_length, .. } => {
+                let (along, distance) = along_and_across(from_anchor, axis);
+                (radius - distance).min(half_length - along.abs())
+            }
+            Self::Cone { axis, height, sine, cosine, .. } => {
+                let (along, distance) = along_and_across(from_anchor, axis);
+                (along * sine - distance * cosine).min(along.min(height - along))
+            }
+        }
+    }
+
+    /// Point and outward unit normal of a face, kernel frame.
+    fn surface(&self, at: &Met, s: f32, face: Face) -> (Vec3, Vec3) {
+        match (self, at) {
+            (&Self::Sphere { center, radius }, Met::Plain(line)) => {
+                let normal = unit(line.at(s));
+                (center + radius * normal, normal)
+            }
+            (&Self::Box { center, half_size, axes }, Met::Plain(line)) => {
+                let (axis, positive) = match face {
+                    Face::Slab { axis, positive } => (axis, positive),
+                    _ => (0, true),
+                };
+                let across = axes.col(axis).as_vec3();
+                let normal = if positive { across } else { -across };
+                let from_center = line.at(s);
+                let above = half_size[axis] - normal.dot(from_center);
+                (center + (from_center + above * normal), normal)
+            }
+            (&Self::Cylinder { center, axis, radius, half_length }, Met::AboutAxis(at)) => {
+                let (rounded_axis, rounded_center) = (axis.as_vec3(), center.as_vec3());
+                let axis_error = (axis - rounded_axis.as_dvec3()).as_vec3();
+                let center_error = (center - rounded_center.as_dvec3()).as_vec3();
+                let (mut radial, mut along) = (at.radial_at(s), at.along_at(s));
+                let normal = match face {
+                    Face::End { positive } => {
+                        along = if positive { half_length } else { -half_length };
+                        if positive { rounded_axis } else { -rounded_axis }
+                    }
+                    _ => {
+                        let normal = unit(radial);
+                        radial = radius * normal;
+                        normal
+                    }
+                };
+                let from_center = along * rounded_axis + (radial + (along * axis_error + center_error));
+                (rounded_center + from_center, normal)
+            }
+            (&Self::Cone { apex, axis, height, sine, cosine, .. }, Met::AboutAxis(at)) => {
+                let rounded_axis = axis.as_vec3();
+                let axis_error = (axis - rounded_axis.as_dvec3()).as_vec3();
+                let (mut radial, mut along) = (at.radial_at(s), at.along_at(s));
+                let distance = radial.length();
+                let normal = if face == Face::Base {
+                    along = height;
+                    rounded_axis
+                } else if distance > 0.0 {
+                    let above = cosine * distance - sine * along;
+                    let normal = cosine * (radial / distance) - sine * rounded_axis;
+                    along += above * sine;
+                    radial -= (above * cosine / distance) * radial;
+                    normal
+                } else {
+                    -rounded_axis
+                };
+                (apex + (along * rounded_axis + (radial + along * axis_error)), normal)
+            }
+            _ => (Vec3::NAN, Vec3::NAN),
+        }
+    }
+}
+
+pub fn unit(vector: Vec3) -> Vec3 {
+    vector / vector.length()
+}
+
+fn along_and_across(from_anchor: Vec3, axis: DVec3) -> (f32, f32) {
+    let axis = axis.as_vec3();
+    let along = from_anchor.dot(axis);
+    (along, (from_anchor - along * axis).length())
+}
+
+/// Of a cylinder, without its ends.
+fn body(at: &AxisLine, radius: f32) -> Interval {
+    let b = at.offset.dot(at.slope);
+    let distance = at.offset.length();
+    if at.slope_squared == 0.0 {
+        return if distance <= radius { Interval::WHOLE_LINE } else { Interval::EMPTY };
+    }
+    let c = (distance - radius) * (distance + radius);
+    let reach = radius * at.slope_squared.sqrt();
+    let moment = at.moment.abs();
+    let discriminant = (reach - moment) * (reach + moment);
+    if discriminant < 0.0 {
+        return Interval::EMPTY;
+    }
+    let (low, high) = ordered_roots(at.slope_squared, b, c, radius * radius, discriminant.sqrt());
+    Interval::curved(low, high)
+}
+
+/// Of a cone, without its base.
+fn nappe(at: &AxisLine, sine: f32, cosine: f32) -> Interval {
+    let difference = |x: f32, y: f32| (cosine * x - sine * y) * (cosine * x + sine * y);
+    let (offset, along) = (at.offset, at.along);
+    let (slope_length, offset_length) = (at.slope_squared.sqrt(), offset.length());
+    let a = difference(slope_length, at.along_slope.abs());
+    let c = difference(offset_length, along.abs());
+    let b = cosine * cosine * offset.dot(at.slope) - sine * sine * along * at.along_slope;
+    let turn_length = (along * at.slope - at.along_slope * offset).length();
+    let discriminant = -cosine * cosine * difference(at.moment.abs(), turn_length);
+    let ahead_is_down = at.along_slope > 0.0;
+    let (low, high) = if a == 0.0 {
+        let enters = if b != 0.0 { (b < 0.0) == ahead_is_down } else { c == 0.0 };
+        if !enters {
+            return Interval::EMPTY;
+        }
+        let root = if b != 0.0 { -c / (b + b) } else { 0.0 };
+        (root, root)
+    } else {
+        if a > 0.0 && discriminant < 0.0 {
+            return Interval::EMPTY;
+        }
+        let to_side = (cosine * offset_length).max(sine * along.abs());
+        ordered_roots(a, b, c, to_side * to_side, discriminant.max(0.0).sqrt())
+    };
+    match (a > 0.0, ahead_is_down) {
+        (true, _) => Interval::curved(low, high),
+        (false, true) => Interval::curved(high, f32::MAX),
+        (false, false) => Interval::curved(-f32::MAX, low),
+    }
+}
+
+/// One step of Newton's towards a cone's side.
+fn nearer_to_side(at: &AxisLine, axis: DVec3, sine: f32, cosine: f32, s: f32, length: f32) -> f32 {
+    let radial = at.radial_at(s);
+    let distance = radial.length();
+    let above = cosine * distance - sine * at.exact_along_at(axis, s);
+    let change = cosine * (radial.dot(at.slope) / distance) - sine * at.along_slope;
+    if above.abs() < change.abs() * (0.0625 * length) { s - above / change } else { s }
+}
+
+/// Whether the kernel has it: below that, squares leave the range of `f32`.
+pub fn is_large_enough(radius: f64, frame: &KernelFrame) -> bool {
+    radius * frame.scale >= Precision::F32.smallest_length()
+}
