@@ -187,7 +187,13 @@ impl Plan {
         let is_lone = is_lone_and_seen_from_outside(scene);
         let counts = SolidKind::ALL
             .map(|kind| scene.primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count());
-        let (precision, rounding) = precision::choose(scene, wishes, limits)?;
+        let (mut precision, rounding) = precision::choose(scene, wishes, limits)?;
+        // A wrong picture with a word is better than none.
+        if matches!(precision.reason, Reason::RoundingSpoils { .. })
+            && check_arrays(scene, counts, precision.choice, limits).is_err()
+        {
+            precision.choice = Precision::F32;
+        }
         check_arrays(scene, counts, precision.choice, limits)?;
 
         let lights = lights(scene, &transport);
@@ -236,7 +242,7 @@ impl Plan {
                 "f32 is too coarse for this scene, {wrong} of {tried} pixels that were tried are wrong: {cause}; {}",
                 match self.precision.reason {
                     Reason::Asked => "--precision f64 draws it right, where the device has that",
-                    _ => "the device has no f64 to draw it right",
+                    _ => "this device has no f64, or no room in it, to draw it right",
                 }
             )),
             _ => None,

@@ -10,7 +10,12 @@ pub struct Solids(Vec<PreparedSolid>);
 impl Solids {
     /// Primitives keep their order.
     pub fn new(primitives: &[Primitive]) -> Self {
-        Self(primitives.iter().map(|primitive| PreparedSolid::new(&primitive.solid)).collect())
+        Self::about(DVec3::ZERO, primitives)
+    }
+
+    /// Rays, hits and lights are given as seen from this place of the world frame, without a turn.
+    pub(super) fn about(origin: DVec3, primitives: &[Primitive]) -> Self {
+        Self(primitives.iter().map(|primitive| PreparedSolid::new(&primitive.solid, origin)).collect())
     }
 
     /// The nearest hit ahead of the ray's origin; a tie goes to the lowest index. A direction of length 0 or a ray that

@@ -7,37 +7,48 @@ use super::nearest::Solids;
 use super::path::Path;
 use super::ray::{Departure, Hit, Ray, Side};
 use super::{BACKGROUND, LIGHT_BALL, Pixel};
-use crate::scene::{Light, Material, Primitive, Scene, Solid};
+use crate::scene::{BoundingSphere, Light, Material, Primitive, Scene, Solid};
 
 /// A scene ready to be looked at along any ray.
 pub struct World<'a> {
     scene: &'a Scene,
+    /// World frame; all below is as seen from there.
+    origin: DVec3,
     solids: Solids,
+    light_positions: Vec<DVec3>,
     /// One for each light, in order; none where nothing of it is seen.
     light_balls: Vec<Option<Solids>>,
 }
 
 impl<'a> World<'a> {
     pub fn new(scene: &'a Scene) -> Self {
-        let ball = |light: &Light| (light.radius > 0.0).then(|| Solids::new(&[ball(light)]));
-        Self { scene, solids: Solids::new(&scene.primitives), light_balls: scene.lights.iter().map(ball).collect() }
+        let origin = origin(scene);
+        let ball = |light: &Light| (light.radius > 0.0).then(|| Solids::about(origin, &[ball(light)]));
+        Self {
+            scene,
+            origin,
+            solids: Solids::about(origin, &scene.primitives),
+            light_positions: scene.lights.iter().map(|light| light.position - origin).collect(),
+            light_balls: scene.lights.iter().map(ball).collect(),
+        }
     }
 
-    /// The nearest hit of a ray on the scene's primitives.
+    /// The nearest hit of a ray on the scene's primitives, both in the world frame.
     pub fn nearest(&self, ray: &Ray, departure: Departure) -> Option<Hit> {
-        self.solids.nearest(ray, departure)
+        let hit = self.solids.nearest(&Ray { origin: ray.origin - self.origin, ..*ray }, departure)?;
+        Some(Hit { point: hit.point + self.origin, ..hit })
     }
 
     /// What a primary ray of unit direction sees.
     pub fn look_along(&self, primary: Ray) -> Pixel {
-        let mut ray = primary;
+        let mut ray = Ray { origin: primary.origin - self.origin, ..primary };
         let mut departure = Departure::Free;
         let mut weight = 1.0;
         let mut color = DVec3::ZERO;
         let mut first_hit = BACKGROUND;
         let mut path = Path::default();
         for generation in 0..self.scene.max_depth {
-            let hit = self.nearest(&ray, departure);
+            let hit = self.solids.nearest(&ray, departure);
             if generation == 0 {
                 if let Some(light) = self.light_ball_before(&ray, hit.as_ref()) {
                     let color = finite(self.scene.lights[light as usize].intensity);
@@ -67,13 +78,13 @@ impl<'a> World<'a> {
     /// E of the model: what a hit sends back along the ray without reflections, linear RGB.
     fn emitted(&self, hit: &Hit, ray_direction: DVec3, material: &Material, path: &mut Path) -> DVec3 {
         let mut sum = material.ambient * material.color;
-        for light in &self.scene.lights {
+        for (light, &position) in self.scene.lights.iter().zip(&self.light_positions) {
             // NaN for a light at the hit point, which therefore gives nothing.
-            let to_light = unit(light.position - hit.point);
+            let to_light = unit(position - hit.point);
             let cosine = hit.normal.dot(to_light);
             // Of a rounded point, a light in a face's plane is now on this side of it and now on that.
-            let faces = self.solids.height_above(hit, light.position).is_none_or(|height| height > 0.0);
-            let lit = faces && cosine > 0.0 && !self.solids.hide(light.position, hit.point, hit.departure());
+            let faces = self.solids.height_above(hit, position).is_none_or(|height| height > 0.0);
+            let lit = faces && cosine > 0.0 && !self.solids.hide(position, hit.point, hit.departure());
             path.add_light(lit);
             if lit {
                 let mirrored_light = reflected(-to_light, hit.normal);
@@ -95,6 +106,16 @@ impl<'a> World<'a> {
         let (light, t) = balls.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
         hit.is_none_or(|hit| t < hit.t).then_some(light)
     }
+}
+
+/// From where places are counted, so that a rounded one is not off by more than solids are small: the world's origin, or the
+/// camera where solids are less than a millionth of its coordinates.
+fn origin(scene: &Scene) -> DVec3 {
+    const FAR: f64 = 1e6;
+    let sizes = scene.primitives.iter().map(|primitive| BoundingSphere::of(&primitive.solid).radius);
+    let smallest = sizes.fold(f64::INFINITY, f64::min);
+    let is_far = scene.camera.position.abs().max_element() > FAR * smallest;
+    if is_far { scene.camera.position } else { DVec3::ZERO }
 }
 
 fn ball(light: &Light) -> Primitive {

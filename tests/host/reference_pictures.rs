@@ -221,3 +221,32 @@ fn it_intensities_up_to_the_largest_f64_stay_finite() {
         assert!(picture.pixels.iter().any(|pixel| pixel.color.x >= intensity));
     }
 }
+
+/// As small as the last places of the coordinates that far from the world's origin allow: the same picture as at the origin.
+#[test]
+fn specks_far_from_the_world_s_origin_are_drawn_as_near_it() {
+    let unit = 2f64.powi(-25);
+    let scene_at = |place: DVec3| {
+        let at = |x: f64, y: f64, z: f64| place + DVec3::new(x, y, z) * unit;
+        let solids = [
+            sphere(at(-1.0, 0.0, 6.0), unit),
+            cube(at(1.5, -0.5, 6.0), unit),
+            Solid::Cylinder { ends: [at(-1.0, 2.0, 6.0), at(1.0, 2.5, 7.0)], radius: 0.5 * unit },
+            Solid::Cone { apex: at(0.0, -1.0, 5.0), axis: DVec3::NEG_Y, height: unit, half_angle_degrees: 30.0 },
+        ];
+        Scene {
+            camera: Camera { position: place, direction: DVec3::Z, vertical_fov_degrees: 60.0, ..Camera::default() },
+            lights: vec![Light { position: at(8.0, 16.0, -8.0), radius: 0.0, ..Light::default() }],
+            primitives: solids.map(|solid| primitive(solid, material(0.1, 0.6, 0.3))).to_vec(),
+            max_depth: 4,
+            ..Scene::default()
+        }
+    };
+    let near = picture(&scene_at(DVec3::ZERO), 64, 40);
+    let far = picture(&scene_at(DVec3::new(2f64.powi(24), -2f64.powi(23), 2f64.powi(24))), 64, 40);
+    let is_other = |(a, b): &(&Pixel, &Pixel)| (a.color - b.color).abs().max_element() > 1e-9;
+    let differing = near.pixels.iter().zip(&far.pixels).filter(is_other).count();
+    let solid = near.pixels.iter().filter(|pixel| pixel.first_hit < LIGHT_BALL).count();
+    // Of edges that pass a pixel's very centre.
+    assert!(differing <= 2 && solid > 300, "{differing} of {solid}");
+}

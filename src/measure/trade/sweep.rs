@@ -57,7 +57,7 @@ pub struct Planned {
 /// The settings to measure, the baseline first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
-    /// Exactly by the accurate kernel in `f32`: what `zerkalo render` does unless told otherwise.
+    /// Exactly by the accurate kernel in `f32`: what `zerkalo render` does unless told otherwise, or the scene needs `f64`.
     pub baseline: Planned,
     /// Without the baseline; no two of them draw the same picture in the same way.
     pub others: Vec<Planned>,

@@ -55,7 +55,7 @@ impl Met {
 }
 
 impl F32Solid {
-    /// `None` where the kernel leaves it out as too small.
+    /// As the kernel's records have it.
     pub fn of(solid: &Solid, frame: &KernelFrame) -> Self {
         let scale = frame.scale;
         let length = |length: f64| (length * scale) as f32;
@@ -73,7 +73,7 @@ impl F32Solid {
                 let half_axis = half_b - half_a;
                 Self::Cylinder {
                     center: half_a + half_b,
-                    axis: half_axis.normalize_or(DVec3::Y),
+                    axis: exact_unit(half_axis),
                     radius: length(radius),
                     half_length: half_axis.length() as f32,
                 }
@@ -82,7 +82,7 @@ impl F32Solid {
                 let (sine, cosine) = half_angle_degrees.to_radians().sin_cos();
                 Self::Cone {
                     apex: frame.point(apex).as_vec3(),
-                    axis: axis.normalize_or(DVec3::Y),
+                    axis: exact_unit(axis),
                     height: length(height),
                     base_radius: length(height * sine / cosine),
                     sine: sine as f32,
@@ -295,6 +295,11 @@ impl F32Solid {
             _ => (Vec3::NAN, Vec3::NAN),
         }
     }
+}
+
+/// Of any length but zero, whose square need not be a number.
+pub fn exact_unit(vector: DVec3) -> DVec3 {
+    (vector / vector.abs().max_element()).normalize()
 }
 
 pub fn unit(vector: Vec3) -> Vec3 {

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use super::line::{Face, Ray};
-use super::solids::{F32Hit, F32Solid, Origin, SURFACE_ERROR, is_large_enough, unit};
+use super::solids::{F32Hit, F32Solid, Origin, SURFACE_ERROR, exact_unit, is_large_enough, unit};
 use crate::scene::{BoundingSphere, Camera, KernelFrame, Light, Projection, Scene};
 
 /// A scene in the numbers of the `f32` kernel; kernel frame.
@@ -168,8 +168,8 @@ impl F32Light {
 }
 
 fn primary_direction(camera: &Camera, [column, row]: [u32; 2], [width, height]: [u32; 2]) -> Vec3 {
-    let ahead = camera.direction.normalize_or(DVec3::Z);
-    let left = camera.up.normalize_or(DVec3::Y).cross(ahead).normalize_or(DVec3::X);
+    let ahead = exact_unit(camera.direction);
+    let left = exact_unit(exact_unit(camera.up).cross(ahead));
     let half_height = (camera.vertical_fov_degrees.to_radians() / 2.0).tan();
     let half_width = half_height * f64::from(width) / f64::from(height);
     let x = (2 * column + 1) as f32 / (2 * width) as f32;

@@ -115,7 +115,7 @@ enum Shape {
 /// A solid with the constants its intersection needs.
 pub(super) struct PreparedSolid {
     shape: Shape,
-    /// Centre, or apex of a cone; world frame.
+    /// Centre, or apex of a cone, from the origin of rays.
     anchor: DoubleDouble3,
     /// The largest of the solid's lengths.
     size: f64,
@@ -145,17 +145,19 @@ pub(super) enum Origin {
 }
 
 impl PreparedSolid {
-    pub fn new(solid: &Solid) -> Self {
+    /// `origin`: of rays and hits, world frame.
+    pub fn new(solid: &Solid, origin: DVec3) -> Self {
+        let from_origin = |place: DoubleDouble3| place - DoubleDouble3::from(origin);
         match *solid {
             Solid::Sphere { center, radius } => Self {
                 shape: Shape::Sphere(Sphere::new(radius)),
-                anchor: center.into(),
+                anchor: from_origin(center.into()),
                 size: radius,
                 bounding_radius: radius,
             },
             Solid::Box { center, half_size, rotation_degrees } => Self {
                 shape: Shape::Box(OrientedBox::new(half_size, rotation_degrees)),
-                anchor: center.into(),
+                anchor: from_origin(center.into()),
                 size: half_size.max_element(),
                 bounding_radius: half_size.length(),
             },
@@ -166,7 +168,7 @@ impl PreparedSolid {
                 let half_length = half_axis.length_squared().sqrt();
                 Self {
                     shape: Shape::Cylinder(Cylinder::new(half_axis, half_length, radius)),
-                    anchor: (first + second) * half,
+                    anchor: from_origin((first + second) * half),
                     size: radius.max(half_length.rounded()),
                     bounding_radius: radius.hypot(half_length.rounded()),
                 }
@@ -174,7 +176,7 @@ impl PreparedSolid {
             Solid::Cone { apex, axis, height, half_angle_degrees } => {
                 let cone = Cone::new(axis, height, half_angle_degrees);
                 Self {
-                    anchor: apex.into(),
+                    anchor: from_origin(apex.into()),
                     size: height.max(cone.base_radius()),
                     bounding_radius: height.hypot(cone.base_radius()),
                     shape: Shape::Cone(cone),

@@ -76,12 +76,12 @@ impl Session {
     }
 
     fn trace(&mut self) -> Result<(), ScreenError> {
-        let stage_before = (self.is_whole(), self.is_finished());
+        let stage_before = self.stage();
         let Some(screen) = &mut self.screen else { return Ok(()) };
         screen.trace()?;
         // While picture follows picture, the next one tells of the last one's time.
         let has_news = self.take_times() && !self.state.is_continuous;
-        if has_news || (self.is_whole(), self.is_finished()) != stage_before {
+        if has_news || self.stage() != stage_before {
             self.wake();
         }
         Ok(())
@@ -92,7 +92,7 @@ impl Session {
         if self.state.dialog.is_some() {
             self.input.let_go();
         }
-        let stage_before = (self.is_whole(), self.is_finished());
+        let stage_before = self.stage();
         self.fly();
         let (mut widgets, observation, repaint_delay) = self.run_widgets();
         self.widgets_due = Instant::now().checked_add(repaint_delay);
@@ -104,7 +104,7 @@ impl Session {
         self.show_title();
         self.observe(observation)?;
         let is_next_due = self.state.is_continuous && self.state.kernel != Kernel::Reference && self.is_whole();
-        if (self.is_whole(), self.is_finished()) != stage_before || is_next_due {
+        if self.stage() != stage_before || is_next_due {
             // The widgets have told of what was, or a screenshot has held up the next picture.
             self.wake();
         }

@@ -84,7 +84,8 @@ impl Session {
         }
         screen.canvas.set_work(work);
         screen.canvas.show(scene)?;
-        if self.state.is_continuous && self.screenshots.is_empty() {
+        // The precision is chosen at rest, between two pictures.
+        if self.state.is_continuous && self.screenshots.is_empty() && self.is_precision_known {
             screen.canvas.trace_again(scene)?;
         }
         Ok(())
@@ -122,6 +123,13 @@ impl Session {
             *worker = Some(ReferenceWorker::start(scene.clone(), size, wake));
         }
         Ok(())
+    }
+
+    /// How far the picture shown is and, apart from what is still to be chosen for the scene, the canvas.
+    pub(super) fn stage(&self) -> [bool; 4] {
+        let canvas = self.screen.as_ref().map(|screen| &screen.canvas);
+        let (is_whole, is_finished) = (canvas.is_some_and(Canvas::is_whole), canvas.is_some_and(Canvas::is_finished));
+        [self.is_whole(), self.is_finished(), is_whole, is_finished]
     }
 
     /// Whether the picture shown is all of the scene as it is now.
