@@ -8,7 +8,7 @@ use anyhow::Result;
 use clap::{Args, ValueEnum};
 
 use super::interrupt::Listener;
-use super::render::parse_size;
+use super::options::parse_size;
 use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files};
 use crate::gpu::{Device, Messages, Validation};
 use crate::measure::fps_table::{self, FpsTable, OffScreen, Plan, Stage};

@@ -6,6 +6,7 @@ pub mod devices;
 pub mod fps;
 pub mod gallery;
 pub mod interrupt;
+pub mod options;
 pub mod plan;
 pub mod render;
 pub mod report;
@@ -266,7 +267,6 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.downcast_ref().is_some_and(OutputError::is_input_error)
             || cause.downcast_ref().is_some_and(SettingError::is_input_error)
             || cause.is::<PlanError>()
-            || cause.is::<streams::NotIntoTerminal>()
             || cause.is::<trade::Contradictory>()
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });

@@ -4,7 +4,7 @@ use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
 
-use super::render::{Precision, parse_depth, parse_size};
+use super::options::{Precision, parse_depth, parse_error, parse_size};
 use super::{DeviceArgs, print_json, print_line, scene_named};
 use crate::gpu::{self, DeviceDescription, GpuError};
 use crate::plan::{Bounds, Cuts, Limits, Line, Plan, Wishes};
@@ -37,17 +37,6 @@ pub struct PlanArgs {
     pub json: bool,
 }
 
-/// A finite number, 0 or greater, as a decimal or as a fraction of two.
-pub(super) fn parse_error(text: &str) -> Result<f64, String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let value = match text.split_once('/') {
-        Some((numerator, denominator)) => number(numerator).zip(number(denominator)).map(|(n, d)| n / d),
-        None => number(text),
-    };
-    let value = value.filter(|value| value.is_finite() && *value >= 0.0);
-    value.ok_or_else(|| "it must be a number, 0 or greater, such as 0.002 or 1/510".to_owned())
-}
-
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
 struct Report<'a> {
@@ -73,7 +62,7 @@ pub fn run(args: &PlanArgs) -> Result<()> {
     let (width, height) = args.size;
     let precision = args.precision.map(Precision::in_library);
     let wishes = Wishes { precision, max_depth: args.max_depth, error: args.error, width, height };
-    let plan = Plan::for_scene(&scene, &wishes, &limits)?;
+    let plan = Plan::for_scene(&scene, &wishes, &limits)?.with_f32_tried(&scene, &wishes);
     let device = device.as_ref().map(|device| device.name.as_str());
     if args.json {
         return print_json(&Report {
@@ -115,20 +104,5 @@ fn device(args: &PlanArgs) -> Result<Option<DeviceDescription>, GpuError> {
             Ok(None)
         }
         Err(error) => Err(error),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn errors_are_decimals_and_fractions() {
-        for (text, value) in [("0", 0.0), ("0.002", 0.002), ("1/510", 1.0 / 510.0), (" 1 / 2 ", 0.5), ("1e-3", 1e-3)] {
-            assert_eq!(parse_error(text), Ok(value), "{text}");
-        }
-        for bad in ["", "-1", "1/0", "0/0", "nan", "inf", "1/-2", "1/2/3", "/", "x", "1e999", "-1/510"] {
-            assert!(parse_error(bad).is_err(), "{bad}");
-        }
     }
 }

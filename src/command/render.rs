@@ -1,25 +1,25 @@
 //! `zerkalo render SCENE -o OUT`: one picture into a file, timed.
 
+use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
-use anyhow::Result;
-use clap::builder::RangedI64ValueParser;
+use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use super::interrupt::Listener;
-use super::plan::parse_error;
+use super::options::{Precision, parse_depth, parse_error, parse_samples, parse_scale, parse_size};
 use super::streams::{PictureFormat, STREAM, StreamArgs};
 use super::{DeviceArgs, ValidationArgs, print_line, progress_bar, refuse_messages, scene_named};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Messages};
 use crate::measure::median;
 use crate::reference::{self, RenderError};
-use crate::scene::{DEPTH_LIMIT, Scene};
+use crate::scene::Scene;
 use crate::setting::{self, Contradiction, Drawing, Setting};
-use crate::tracer::sampling::{MAX_SAMPLES, Sampling};
-use crate::tracer::{self, Tracer, TracerError, limits_of};
+use crate::tracer::sampling::Sampling;
+use crate::tracer::{Tracer, TracerError, limits_of};
 use crate::validation::Remarked;
 
 /// Which of the program's tracers draws.
@@ -35,16 +35,6 @@ pub enum Kernel {
     Whitted,
     /// The accurate model in f64 on the CPU, without Vulkan: the truth, slowly
     Reference,
-}
-
-/// What the accurate kernel calculates in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Precision {
-    #[default]
-    F32,
-    /// Only where the device has it
-    F64,
 }
 
 /// Render a scene into a PNG (display values) or EXR (linear values) file
@@ -104,51 +94,6 @@ impl Kernel {
     }
 }
 
-impl Precision {
-    /// As the library calls it.
-    pub(super) fn in_library(self) -> tracer::Precision {
-        match self {
-            Self::F32 => tracer::Precision::F32,
-            Self::F64 => tracer::Precision::F64,
-        }
-    }
-
-    fn of_library(precision: tracer::Precision) -> Self {
-        match precision {
-            tracer::Precision::F32 => Self::F32,
-            tracer::Precision::F64 => Self::F64,
-        }
-    }
-}
-
-pub(super) fn parse_depth() -> RangedI64ValueParser<u32> {
-    clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT))
-}
-
-fn parse_samples() -> RangedI64ValueParser<u32> {
-    clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES))
-}
-
-/// Such as 0.5 or 1/2.
-fn parse_scale(text: &str) -> Result<f64, String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let scale = match text.split_once('/') {
-        Some((above, below)) => number(above).zip(number(below)).map(|(above, below)| above / below),
-        None => number(text),
-    };
-    let scale = scale.ok_or("it must be a number or a fraction, such as 0.5 or 1/2")?;
-    Sampling { scale, ..Sampling::PLAIN }.check().map_err(|error| error.to_string())?;
-    Ok(scale)
-}
-
-pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
-    let sides = text.split_once(['x', 'X', '×']);
-    let size = sides.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
-    let (width, height) = size.ok_or("it must be WIDTHxHEIGHT in pixels, such as 1621x701")?;
-    Frame::check_size(width, height).map_err(|error| error.to_string())?;
-    Ok((width, height))
-}
-
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
 struct Report<'a> {
@@ -191,22 +136,24 @@ struct Rendered {
 
 /// Renders, saves, reports. Fails after saving when validation had anything to say.
 pub fn run(args: &RenderArgs) -> Result<()> {
-    let is_into_stream = args.output.as_os_str() == STREAM;
+    let (is_from_stream, is_into_stream) = (args.scene == STREAM, args.output.as_os_str() == STREAM);
+    args.streams.check(is_from_stream, is_into_stream)?;
     if is_into_stream {
         PictureFormat::check_output()?
     } else {
         Frame::check_output_path(&args.output)?
     }
-    let scene = if args.scene == STREAM { args.streams.format.read_scene()? } else { scene_named(&args.scene)? };
+    let scene =
+        if is_from_stream { args.streams.format.unwrap_or_default().read_scene()? } else { scene_named(&args.scene)? };
     let rendered = match setting(args)? {
         Some(setting) => on_device(args, &scene, &setting)?,
         None => on_cpu(args, scene)?,
     };
     let told = told(args, &rendered)?;
     if is_into_stream {
-        args.streams.output_format.write(&rendered.frame)?;
+        args.streams.output_format.unwrap_or_default().write(&rendered.frame)?;
         // The picture has standard output to itself.
-        eprintln!("{told}");
+        writeln!(io::stderr(), "{told}").context("could not write to standard error")?;
     } else {
         rendered.frame.save(&args.output)?;
         print_line(&told)?;
@@ -260,7 +207,7 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &Setting) -> Result<Rend
 
     let (width, height) = args.size;
     let limits = limits_of(device.description());
-    let Drawing { settings, error_bound, warning } = setting.drawing(scene, &limits, width, height)?;
+    let (Drawing { settings, error_bound }, warning) = setting.told_drawing(scene, &limits, width, height)?;
     if let Some(warning) = &warning {
         eprintln!("warning: {warning}");
     }
@@ -384,28 +331,4 @@ fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
     let scale = if scale < 1.0 { format!(", traced at {scale:.4} of that") } else { String::new() };
     let picture = format!("{width}x{height}{scale}{samples}");
     Ok(format!("wrote {} ({picture}, {device}, {time}{of}{bound})", output.escape_debug()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn scales_are_decimals_and_fractions_within_the_limits() {
-        for (text, scale) in [("1", 1.0), ("0.25", 0.25), ("1/2", 0.5), (" 3 / 4 ", 0.75)] {
-            assert_eq!(parse_scale(text), Ok(scale), "{text}");
-        }
-        for bad in ["", "0", "-1", "1/5", "2", "1/0", "nan", "x", "1/2/3", "0.2499", "inf"] {
-            assert!(parse_scale(bad).is_err(), "{bad}");
-        }
-    }
-
-    #[test]
-    fn sizes_are_two_sides_within_the_limits() {
-        assert_eq!(parse_size("1621x701"), Ok((1621, 701)));
-        assert_eq!(parse_size("1X16384"), Ok((1, 16384)));
-        for bad in ["", "x", "10", "10x", "0x5", "5x0", "16385x1", "-1x5", "1.5x2", "99999999999x1", "1x2x3"] {
-            assert!(parse_size(bad).is_err(), "{bad}");
-        }
-    }
 }

@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use super::interrupt::Listener;
-use super::render::Precision;
+use super::options::Precision;
 use super::{DeviceArgs, ValidationArgs, print_json, print_line, progress_bar, refuse_messages};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription};

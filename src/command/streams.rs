@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 
 use crate::frame::{FileFormat, Frame};
 use crate::scene::{Scene, SceneError};
+use crate::tracer::TracerError;
 
 /// In place of a file's name.
 pub const STREAM: &str = "-";
@@ -14,12 +15,27 @@ pub const STREAM: &str = "-";
 /// What a stream has no name's ending for.
 #[derive(Debug, Clone, Copy, Args)]
 pub struct StreamArgs {
-    /// What a scene from standard input, `-`, is written in
-    #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
-    pub format: SceneFormat,
-    /// What a picture to standard output, `-o -`, is written in
-    #[arg(long, value_enum, value_name = "FORMAT", default_value_t)]
-    pub output_format: PictureFormat,
+    /// What a scene from standard input, `-`, is written in [default: toml]
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub format: Option<SceneFormat>,
+    /// What a picture to standard output, `-o -`, is written in [default: png]
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub output_format: Option<PictureFormat>,
+}
+
+impl StreamArgs {
+    /// # Errors
+    /// A format is given of what is no stream: the file's name tells it.
+    pub fn check(&self, is_from_stream: bool, is_into_stream: bool) -> Result<()> {
+        if self.format.is_some() && !is_from_stream {
+            return Err(TracerError::Refused("--format is for a scene from standard input, -".to_owned()).into());
+        }
+        if self.output_format.is_some() && !is_into_stream {
+            let what = "--output-format is for a picture to standard output, -o -";
+            return Err(TracerError::Refused(what.to_owned()).into());
+        }
+        Ok(())
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
@@ -60,7 +76,8 @@ impl PictureFormat {
     /// Standard output is a terminal, which shows no picture.
     pub fn check_output() -> Result<()> {
         if io::stdout().is_terminal() {
-            return Err(NotIntoTerminal.into());
+            let what = "-o -: standard output is a terminal; it must be a pipe or a file";
+            return Err(TracerError::Refused(what.to_owned()).into());
         }
         Ok(())
     }
@@ -76,8 +93,3 @@ impl PictureFormat {
         output.write_all(&bytes).and_then(|()| output.flush()).context("could not write to standard output")
     }
 }
-
-/// The bytes of a picture are of no use there.
-#[derive(Debug, thiserror::Error)]
-#[error("-o -: standard output is a terminal; it must be a pipe or a file")]
-pub struct NotIntoTerminal;

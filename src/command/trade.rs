@@ -10,8 +10,7 @@ use anyhow::Result;
 use clap::{Args, ValueEnum};
 
 use super::interrupt::Listener;
-use super::plan::parse_error;
-use super::render::parse_size;
+use super::options::{parse_error, parse_size};
 use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files, scene_named};
 use crate::gpu::Device;
 use crate::measure::output::Table;

@@ -85,7 +85,7 @@ pub fn try_checks(wanted: Option<&str>, validation: Validation) -> Result<Vec<(C
     let device = Device::open(wanted, validation)?;
     let messages = device.messages().clone();
     Check::of(validation).iter().try_for_each(|check| check.provoke(&device))?;
-    // Some layers tell at the end.
+    // What is said of its destruction belongs to it too.
     drop(device);
     let said = messages.to_vec();
     let is_told = |check: Check| said.iter().any(|message| check.is_told_by(message));

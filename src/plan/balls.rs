@@ -5,6 +5,7 @@ use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 
+use super::solids::unit;
 use super::{Decision, Reason, Wishes};
 use crate::scene::{Camera, Light, Projection, Scene, farthest_coordinate};
 
@@ -108,8 +109,4 @@ fn slopes(across: f64, ahead: f64, radius: f64) -> Option<(f64, f64)> {
     }
     let slope = |angle: f64| if angle.abs() >= FRAC_PI_2 { f64::INFINITY.copysign(angle) } else { angle.tan() };
     Some((slope(least), slope(greatest)))
-}
-
-fn unit(vector: DVec3) -> DVec3 {
-    (vector / vector.abs().max_element()).normalize()
 }

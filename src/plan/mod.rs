@@ -158,7 +158,7 @@ pub struct Plan {
     /// Generations of a ray, the primary one included. Where it is 1, nothing is reflected.
     pub generations: Decision<u32>,
     pub precision: Decision<Precision>,
-    /// What rounding to `f32` does to the picture; `None` where `f64` was asked for.
+    /// What rounding to `f32` does to the picture; `None` where the precision was asked for and that was not looked at.
     pub rounding: Option<Rounding>,
     /// Of each kind.
     pub structures: Decision<[Structure; 4]>,
@@ -189,7 +189,7 @@ impl Plan {
             .map(|kind| scene.primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count());
         let (mut precision, rounding) = precision::choose(scene, wishes, limits)?;
         // A wrong picture with a word is better than none.
-        if matches!(precision.reason, Reason::RoundingSpoils { .. })
+        if matches!(precision.reason, Reason::RoundingSpoils { .. } | Reason::RoundingIsUnknown { .. })
             && check_arrays(scene, counts, precision.choice, limits).is_err()
         {
             precision.choice = Precision::F32;
@@ -235,18 +235,32 @@ impl Plan {
 }
 
 impl Plan {
-    /// That the picture will be wrong, and why, in one line: where `f32` is what there is or was asked for.
-    pub fn warning(&self) -> Option<String> {
-        match (self.precision.choice, self.rounding) {
-            (Precision::F32, Some(Rounding::Harmful { wrong, tried, cause })) => Some(format!(
-                "f32 is too coarse for this scene, {wrong} of {tried} pixels that were tried are wrong: {cause}; {}",
-                match self.precision.reason {
-                    Reason::Asked => "--precision f64 draws it right, where the device has that",
-                    _ => "this device has no f64, or no room in it, to draw it right",
-                }
-            )),
-            _ => None,
+    /// With [`Plan::rounding`] looked at where `f32` was asked for, too, which may take a second: for those who tell the
+    /// [warning](Plan::warning). To be called with what the plan was made for.
+    pub fn with_f32_tried(mut self, scene: &Scene, wishes: &Wishes) -> Self {
+        if self.precision.choice == Precision::F32 && self.rounding.is_none() {
+            self.rounding = Some(precision::rounding_to_f32(scene, wishes));
         }
+        self
+    }
+
+    /// That the picture will or may be wrong, and why, in one line: where `f32` is what there is or was asked for.
+    pub fn warning(&self) -> Option<String> {
+        if self.precision.choice != Precision::F32 {
+            return None;
+        }
+        let what = match self.rounding? {
+            Rounding::Mild | Rounding::Harmless { .. } => return None,
+            Rounding::Harmful { wrong, tried, cause } => {
+                format!("is too coarse for this scene, {wrong} of {tried} pixels that were tried are wrong: {cause}")
+            }
+            Rounding::Unknown { .. } => "may be too coarse for this scene, of so many solids and sizes".to_owned(),
+        };
+        let cure = match self.precision.reason {
+            Reason::Asked => "f64 draws it right, where the device has that",
+            _ => "this device has no f64, or no room in it, to draw it right",
+        };
+        Some(format!("f32 {what}; {cure}"))
     }
 }
 

@@ -56,47 +56,48 @@ impl Precision {
 const LARGEST_SHIFT_PIXELS: f64 = 0.5;
 
 /// As asked for, else f32 unless that is known to be wrong, or an error is allowed that f32 may exceed by rounding alone;
-/// with what rounding to f32 does, where that is or may be chosen.
+/// with what rounding to f32 does, where that was looked at.
 pub(super) fn choose(
     scene: &Scene,
     wishes: &Wishes,
     limits: &Limits,
 ) -> Result<(Decision<Precision>, Option<Rounding>), PlanError> {
     let decide = |choice, reason| Decision { choice, reason };
-    if wishes.precision == Some(Precision::F64) {
-        return if limits.float64 {
-            Ok((decide(Precision::F64, Reason::Asked), None))
-        } else {
-            Err(PlanError::NoFloat64)
-        };
+    match wishes.precision {
+        Some(Precision::F64) if !limits.float64 => return Err(PlanError::NoFloat64),
+        Some(precision) => return Ok((decide(precision, Reason::Asked), None)),
+        None => {}
     }
+    let shift_pixels = silhouette_shift_pixels(scene, wishes, Precision::F32);
+    let bar = Precision::F32.rounding_bar() * brightest_source(scene).max(1.0);
+    let rounding = rounding_to_f32(scene, wishes);
+    let is_finer = wishes.error > 0.0;
+    let (choice, reason) = match rounding {
+        Rounding::Harmful { wrong, tried, cause } => (Precision::F64, Reason::RoundingSpoils { wrong, tried, cause }),
+        Rounding::Unknown { ratio } => (Precision::F64, Reason::RoundingIsUnknown { ratio }),
+        _ if is_finer && wishes.error < bar => (Precision::F64, Reason::RoundingExceedsError { bar }),
+        _ if is_finer && shift_pixels > LARGEST_SHIFT_PIXELS => {
+            (Precision::F64, Reason::RoundingMovesSilhouettes { shift_pixels })
+        }
+        _ if is_finer => (Precision::F32, Reason::RoundingIsWithinError { bar, shift_pixels }),
+        Rounding::Harmless { tried } => (Precision::F32, Reason::RoundingIsHarmless { tried, bar }),
+        Rounding::Mild => (Precision::F32, Reason::RoundingIsNoCut { bar, shift_pixels }),
+    };
+    let decision = match (choice, reason) {
+        (Precision::F64, _) if limits.float64 => decide(choice, reason),
+        // These say what is wrong, whatever draws.
+        (_, Reason::RoundingSpoils { .. } | Reason::RoundingIsUnknown { .. }) => decide(Precision::F32, reason),
+        (Precision::F64, _) => decide(Precision::F32, Reason::NoFloat64 { bar, shift_pixels }),
+        (Precision::F32, _) => decide(choice, reason),
+    };
+    Ok((decision, Some(rounding)))
+}
+
+/// What it does to the picture that is wished for.
+pub(super) fn rounding_to_f32(scene: &Scene, wishes: &Wishes) -> Rounding {
     let &Wishes { max_depth, width, height, .. } = wishes;
     let shift_pixels = silhouette_shift_pixels(scene, wishes, Precision::F32);
-    let rounding = rounding::of_f32(scene, max_depth.unwrap_or(scene.max_depth), [width, height], shift_pixels);
-    let bar = Precision::F32.rounding_bar() * brightest_source(scene).max(1.0);
-    let reason = if wishes.precision.is_some() {
-        return Ok((decide(Precision::F32, Reason::Asked), Some(rounding)));
-    } else if let Rounding::Harmful { wrong, tried, cause } = rounding {
-        Reason::RoundingSpoils { wrong, tried, cause }
-    } else if wishes.error == 0.0 {
-        let reason = match rounding {
-            Rounding::Harmless { tried } => Reason::RoundingIsHarmless { tried, bar },
-            _ => Reason::RoundingIsNoCut { bar, shift_pixels },
-        };
-        return Ok((decide(Precision::F32, reason), Some(rounding)));
-    } else if wishes.error < bar {
-        Reason::RoundingExceedsError { bar }
-    } else if shift_pixels > LARGEST_SHIFT_PIXELS {
-        Reason::RoundingMovesSilhouettes { shift_pixels }
-    } else {
-        return Ok((decide(Precision::F32, Reason::RoundingIsWithinError { bar, shift_pixels }), Some(rounding)));
-    };
-    Ok(match (limits.float64, reason) {
-        (true, reason) => (decide(Precision::F64, reason), Some(rounding)),
-        // Its own words say what is wrong.
-        (false, Reason::RoundingSpoils { .. }) => (decide(Precision::F32, reason), Some(rounding)),
-        (false, _) => (decide(Precision::F32, Reason::NoFloat64 { bar, shift_pixels }), Some(rounding)),
-    })
+    rounding::of_f32(scene, max_depth.unwrap_or(scene.max_depth), [width, height], shift_pixels)
 }
 
 /// The largest channel of the background and of the lights.

@@ -74,6 +74,10 @@ pub enum Reason {
         tried: usize,
         cause: Cause,
     },
+    /// See [`Rounding::Unknown`](super::Rounding).
+    RoundingIsUnknown {
+        ratio: f64,
+    },
     RoundingIsWithinError {
         bar: f64,
         shift_pixels: f64,
@@ -161,6 +165,11 @@ impl fmt::Display for Reason {
             Self::RoundingSpoils { wrong, tried, cause } => {
                 write!(f, "rounding to f32 spoils {wrong} of {tried} pixels that were tried: {cause}")
             }
+            Self::RoundingIsUnknown { ratio } => write!(
+                f,
+                "lengths differ by {}, and what rounding to f32 does to so many solids would take too long to try",
+                Short(ratio)
+            ),
             Self::RoundingIsWithinError { bar, shift_pixels } => write!(
                 f,
                 "rounding to f32 keeps channels within {} off edges (tested; not part of the bound), silhouettes \

@@ -38,6 +38,30 @@ pub(super) fn outside_by(solid: &Solid, point: DVec3) -> f64 {
     }
 }
 
+/// Of any length but zero, whose square need not be a number.
+pub(super) fn unit(vector: DVec3) -> DVec3 {
+    (vector / vector.abs().max_element()).normalize()
+}
+
+/// How far a point is from the nearest plane of a flat face, among those that it does not lie in to the rounding of `f64`.
+pub(super) fn from_face_planes(solid: &Solid, point: DVec3) -> f64 {
+    let from_anchor = point - solid.position();
+    let least = 8.0 * f64::EPSILON * (point.abs().max_element() + size(solid));
+    let beyond = |distance: f64| if distance > least { distance } else { f64::INFINITY };
+    match *solid {
+        Solid::Sphere { .. } => f64::INFINITY,
+        Solid::Box { half_size, rotation_degrees, .. } => {
+            let in_box = world_from_box(rotation_degrees).transpose() * from_anchor;
+            (in_box.abs() - half_size).abs().map(beyond).min_element()
+        }
+        Solid::Cylinder { ends: [a, b], .. } => {
+            let half_axis = half_axis(a, b);
+            beyond((from_anchor.dot(unit(half_axis)).abs() - half_axis.length()).abs())
+        }
+        Solid::Cone { axis, height, .. } => beyond((from_anchor.dot(axis) - height).abs()),
+    }
+}
+
 fn half_axis(a: DVec3, b: DVec3) -> DVec3 {
     b * 0.5 - a * 0.5
 }

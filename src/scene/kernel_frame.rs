@@ -3,7 +3,11 @@
 
 use glam::DVec3;
 
-use super::{BoundingSphere, Primitive, Scene, farthest_coordinate};
+use super::{BoundingSphere, Light, Primitive, Scene, farthest_coordinate};
+
+/// Lights farther than this many times the largest primitive are moved here along their direction: parallel light to
+/// the last bit of an `f64`, and no square of their distance overflows an `f32`.
+const FARTHEST_LIGHT: f64 = (1_u64 << 60) as f64;
 
 /// From the world frame to the kernel's: (world − origin)·scale, rounded once where `scale` is a power of two.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,6 +38,14 @@ impl KernelFrame {
 
     pub(crate) fn point(&self, world: DVec3) -> DVec3 {
         (world - self.origin) * self.scale
+    }
+
+    /// Where a light is, and the radius of its ball, kernel lengths.
+    pub(crate) fn light(&self, light: &Light) -> (DVec3, f64) {
+        let position = self.point(light.position);
+        let nearer = (FARTHEST_LIGHT / position.abs().max_element()).min(1.0);
+        // The ball keeps the angle under which the camera sees it.
+        (position * nearer, light.radius * self.scale * nearer)
     }
 
     /// A point and what its rounding lost.

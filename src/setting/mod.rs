@@ -77,8 +77,6 @@ pub struct Drawing {
     pub settings: Settings,
     /// No linear channel is changed more by what was left out for [`Setting::error`]: proven, rounding not in it.
     pub error_bound: f64,
-    /// See [`Plan::warning`].
-    pub warning: Option<String>,
 }
 
 /// A field that does not go with the others, or has an impossible value.
@@ -94,25 +92,55 @@ impl Setting {
     /// # Errors
     /// The setting is impossible, or not for this device.
     pub fn drawing(&self, scene: &Scene, limits: &Limits, width: u32, height: u32) -> Result<Drawing, PlanError> {
-        let &Self { kernel, error, max_depth, boxes, samples, scale, .. } = self;
-        let precision = match kernel {
-            Kernel::Course => {
-                let settings = Settings { max_depth, ..Settings::new(width, height) };
-                return Ok(Drawing { settings, error_bound: 0.0, warning: None });
-            }
-            Kernel::Plain => Some(Precision::F32),
-            Kernel::Whitted => self.precision,
+        Ok(self.drawn_by(self.plan(scene, limits, width, height)?.as_ref(), width, height))
+    }
+
+    /// As [`Setting::drawing`], with what is to be told of the picture, see [`Plan::warning`].
+    ///
+    /// # Errors
+    /// The setting is impossible, or not for this device.
+    pub fn told_drawing(
+        &self,
+        scene: &Scene,
+        limits: &Limits,
+        width: u32,
+        height: u32,
+    ) -> Result<(Drawing, Option<String>), PlanError> {
+        let mut plan = self.plan(scene, limits, width, height)?;
+        // The plain kernel is there to show what rounding does.
+        if self.kernel == Kernel::Whitted {
+            plan = plan.map(|plan| plan.with_f32_tried(scene, &self.wishes(width, height)));
+        }
+        let warning = plan.as_ref().and_then(Plan::warning);
+        Ok((self.drawn_by(plan.as_ref(), width, height), warning))
+    }
+
+    fn wishes(&self, width: u32, height: u32) -> Wishes {
+        let &Self { kernel, precision, max_depth, error, .. } = self;
+        let precision = if kernel == Kernel::Plain { Some(Precision::F32) } else { precision };
+        Wishes { precision, max_depth, error, width, height }
+    }
+
+    /// None for the course's kernel, which is always the same.
+    fn plan(&self, scene: &Scene, limits: &Limits, width: u32, height: u32) -> Result<Option<Plan>, PlanError> {
+        if self.kernel == Kernel::Course {
+            return Ok(None);
+        }
+        Plan::for_scene(scene, &self.wishes(width, height), limits).map(Some)
+    }
+
+    fn drawn_by(&self, plan: Option<&Plan>, width: u32, height: u32) -> Drawing {
+        let &Self { kernel, max_depth, boxes, samples, scale, .. } = self;
+        let Some(plan) = plan else {
+            return Drawing { settings: Settings { max_depth, ..Settings::new(width, height) }, error_bound: 0.0 };
         };
-        let plan = Plan::for_scene(scene, &Wishes { precision, max_depth, error, width, height }, limits)?;
         let has_boxes = plan.structures.choice.iter().any(|structure| *structure != Structure::None);
         let without_boxes = has_boxes && !boxes;
-        let mut settings = Settings { without_boxes, samples, scale, ..Settings::planned(&plan, width, height) };
+        let mut settings = Settings { without_boxes, samples, scale, ..Settings::planned(plan, width, height) };
         if kernel == Kernel::Plain {
             settings.kernel = tracer::Kernel::Plain;
         }
-        // The plain kernel is there to show what rounding does.
-        let warning = plan.warning().filter(|_| kernel == Kernel::Whitted);
-        Ok(Drawing { settings, error_bound: plan.bounds.total(), warning })
+        Drawing { settings, error_bound: plan.bounds.total() }
     }
 
     /// # Errors
@@ -220,7 +248,6 @@ mod tests {
         }
         let course = drawing(Setting { kernel: Kernel::Course, max_depth: Some(3), ..Setting::default() });
         assert_eq!(course.settings, Settings { max_depth: Some(3), ..Settings::new(64, 28) });
-        assert_eq!([exact.warning, course.warning], [None, None]);
     }
 
     #[test]

@@ -18,10 +18,6 @@ use crate::scene::{
     BoundingSphere, Camera, KernelFrame, Light, Primitive, Projection, Scene, Solid, SolidKind, two_sum, world_from_box,
 };
 
-/// Lights farther than this many times the largest primitive are moved here along their direction: parallel light to
-/// the last bit of an `f64`, and no square of their distance overflows an `f32`.
-const FARTHEST_LIGHT: f64 = (1_u64 << 60) as f64;
-
 /// What the kernel's buffers hold.
 #[derive(Debug, Clone)]
 pub struct WhittedRecords {
@@ -271,10 +267,8 @@ pub(super) fn unit((value, error): (DVec3, DVec3)) -> (DVec3, DVec3) {
 
 /// `Light`
 fn light_rows(light: &Light, frame: KernelFrame) -> [[f64; 4]; LIGHT_ROWS] {
-    let position = frame.point(light.position);
-    let nearer = (FARTHEST_LIGHT / position.abs().max_element()).min(1.0);
-    // The ball keeps the angle under which the camera sees it.
-    [row(position * nearer, light.radius * frame.scale * nearer), row(light.intensity, 0.0)]
+    let (position, radius) = frame.light(light);
+    [row(position, radius), row(light.intensity, 0.0)]
 }
 
 /// `View`

@@ -4,8 +4,10 @@ mod findings;
 mod off_screen;
 mod outcome;
 mod runs;
+mod selection;
 
 pub use findings::{Findings, Group};
 pub use off_screen::{Observe, OffScreen, Program, draw_off_screen};
 pub use outcome::{Outcome, Pass, Remarked, TriedCheck};
-pub use runs::{PICTURE, Run, Scope, Switch, instrumented, runs, switches};
+pub use runs::{PICTURE, Run, Scope, runs};
+pub use selection::{Switch, instrumented, switches};

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
-use super::runs::by_shader;
+use super::selection::by_shader;
 use super::{Findings, Pass, Run, TriedCheck};
 use crate::gpu::{Device, Messages, Validation, try_checks};
 use crate::tracer::{Tracer, TracerError};

@@ -12,6 +12,9 @@ use zerkalo::tracer::{Kernel, Settings};
 
 const SIZE: [u32; 2] = [96, 42];
 
+/// Of a picture's pixels: more wrong ones are wrong without a word.
+const FEW_WRONG: f64 = 0.005;
+
 /// Of a picture's pixels, those with a channel that is more than half a step of eight bits off.
 fn share_of_wrong(tracers: &mut Tracers, scene: &Scene, precision: Precision) -> f64 {
     let [width, height] = SIZE;
@@ -155,6 +158,10 @@ fn cluster(random: &mut Random) -> Scene {
     Scene { camera, lights, primitives, max_depth: 1 + (random.bits() % 5) as u32, ..Scene::default() }
 }
 
+/// Of pixels whose very centre an edge passes, f32 may see the other side: of 96x42 no more than 8 in these scenes of one or
+/// two solids.
+const EDGES: f64 = 0.002;
+
 /// Draws random scenes in `f32` and compares what is wrong with what their plans say. Of the scenes that `f32` draws right,
 /// one in twenty may be given to `f64`; none that it draws wrong may be left to it.
 fn judge_plans(seeds: std::ops::Range<u64>) {
@@ -175,7 +182,7 @@ fn judge_plans(seeds: std::ops::Range<u64>) {
         }
         let share = share_of_wrong(&mut tracers, &scene, Precision::F32);
         let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &limits).unwrap();
-        let is_right = share <= 0.005;
+        let is_right = share <= FEW_WRONG;
         *(if is_right { &mut right } else { &mut wrong }) += 1;
         match (is_right, plan.precision.choice) {
             (true, Precision::F64) => needless.push((seed, share, plan.rounding)),
@@ -215,13 +222,13 @@ fn reported_scenes_are_right_by_default() {
         let scene = Scene::load(&path).unwrap();
         let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &limits).unwrap();
         let share = share_of_wrong(&mut tracers, &scene, plan.precision.choice);
-        assert!(share <= 0.005, "{path:?} in {:?}: {share} of the pixels are wrong", plan.precision);
+        assert!(share <= FEW_WRONG, "{path:?} in {:?}: {share} of the pixels are wrong", plan.precision);
         assert_eq!(plan.warning(), None, "{path:?}");
 
         // Without f64, what is wrong is told.
         let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &Limits::PROMISED).unwrap();
         let share = share_of_wrong(&mut tracers, &scene, Precision::F32);
-        assert!(share <= 0.005 || plan.warning().is_some(), "{path:?}: {share} of the pixels are wrong");
+        assert!(share <= FEW_WRONG || plan.warning().is_some(), "{path:?}: {share} of the pixels are wrong");
         seen.push(path);
     }
     assert_eq!(seen.len(), 7, "{seen:?}");
@@ -270,7 +277,7 @@ fn a_light_in_the_plane_of_a_face_lights_none_of_it() {
         assert_eq!(picture(&scene, width, height).to_f32(), right, "case {case} of the reference");
         for precision in [Precision::F32, Precision::F64] {
             let share = share_of_wrong(&mut tracers, &scene, precision);
-            assert!(share <= 0.002, "case {case} in {precision:?}: {share} of the pixels are wrong");
+            assert!(share <= EDGES, "case {case} in {precision:?}: {share} of the pixels are wrong");
         }
     }
 }
@@ -293,7 +300,7 @@ fn a_light_s_ball_is_as_large_as_the_scene_says_and_is_not_seen_from_within() {
         assert_eq!(white > 0, is_seen, "radius {radius} at {distance}: {white} pixels");
         for precision in [Precision::F32, Precision::F64] {
             let share = share_of_wrong(&mut tracers, &scene, precision);
-            assert!(share <= 0.002, "radius {radius} at {distance} in {precision:?}: {share}");
+            assert!(share <= EDGES, "radius {radius} at {distance} in {precision:?}: {share}");
         }
     }
 }

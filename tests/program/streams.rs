@@ -49,19 +49,21 @@ fn a_scene_comes_in_and_a_picture_goes_out_by_streams_as_by_files() {
 #[test]
 fn what_comes_by_a_stream_is_refused_as_a_file_is() {
     let place = Place::new();
-    for (input, part) in [
-        (&b"max_depth = 0"[..], "standard input:1: max_depth = 0"),
-        (b"\xff\xfe", "standard input: is not UTF-8"),
-        (b"", "standard input"),
-    ] {
+    for (input, part) in
+        [(&b"max_depth = 0"[..], "standard input:1: max_depth = 0"), (b"\xff\xfe", "standard input: is not UTF-8")]
+    {
         let (code, stdout, told) = piped(&place, &["render", "-", "-o", "out.png", "--size", "8x8"], input);
-        if input.is_empty() {
-            // Every field has a default.
-            assert_eq!(code, Some(0), "{told}");
-            continue;
-        }
         assert_eq!((code, stdout.len(), told.lines().count()), (Some(2), 0, 1), "{told}");
         assert!(told.contains(part), "{told}");
+    }
+}
+
+#[test]
+fn a_format_of_what_has_a_name_is_refused() {
+    let place = Place::new();
+    for (option, format) in [("--format", "json"), ("--output-format", "exr")] {
+        let run = place.run(&["render", "four", "-o", "a.png", option, format]);
+        assert!(run.code == Some(2) && run.stderr.contains(option), "{run:?}");
     }
 }
 

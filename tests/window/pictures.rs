@@ -195,4 +195,9 @@ fn where_f32_is_too_coarse_f64_draws_and_f32_is_warned_of() {
     window.click("Accurate (Vulkan)");
     window.wait_until("right again", |now| now.kernel == "whitted f64" && now.is_whole && !now.says(warning));
     window.close();
+
+    std::fs::write(desk.path("f32.toml"), "kernel = \"whitted\"\nprecision = \"f32\"\n").unwrap();
+    let mut window = desk.view(&["planet.json", "--settings", "f32.toml"]);
+    window.wait_until("as the file says, and warned of", |now| now.is_whole && now.says(warning));
+    window.close();
 }

@@ -5,8 +5,8 @@ use glam::DVec3;
 
 use super::pictures::{picture, size, truth};
 use super::{Case, Measured};
-use crate::plan::{Plan, Rounding, Wishes};
-use crate::scene::{Camera, Light, Material, Primitive, Scene, Solid};
+use crate::plan::{Plan, Wishes};
+use crate::scene::{Camera, Light, Material, Primitive, Scene, Solid, world_from_box};
 use crate::tracer::{Kernel, Precision, TracerError, limits_of};
 
 pub(super) fn cases() -> Vec<Case> {
@@ -22,7 +22,7 @@ pub(super) fn cases() -> Vec<Case> {
         right_or_told("LP-2", || {
             let turned = DVec3::new(0.0, 0.0, 30.0);
             // Along the plate's own x axis.
-            lit_along(plate(turned), crate::scene::world_from_box(turned) * DVec3::X * 9.0)
+            lit_along(plate(turned), world_from_box(turned) * DVec3::X * 9.0)
         }),
         right_or_told("LP-3", || {
             lit_along(Solid::Cylinder { ends: [DVec3::NEG_Y, DVec3::ZERO], radius: 5.0 }, DVec3::Z * 9.0)
@@ -48,7 +48,7 @@ fn right_or_told(id: &str, scene: impl Fn() -> Scene + 'static) -> Case {
         let wishes = Wishes { precision: Some(precision), ..Wishes::exact(width, height) };
         let plan = Plan::for_scene(&scene, &wishes, &limits_of(subject.device.description()));
         let plan = plan.map_err(|error| TracerError::Refused(error.to_string()))?;
-        let is_told = precision == Precision::F32 && matches!(plan.rounding, Some(Rounding::Harmful { .. }));
+        let is_told = plan.with_f32_tried(&scene, &wishes).warning().is_some();
         let Some(ours) = picture(subject, &scene, [width, height])? else { return Ok(Vec::new()) };
         let tolerance = Precision::F32.rounding_bar();
         let is_wrong = |ours: &DVec3, right: DVec3| !(*ours - right).abs().cmple(DVec3::splat(tolerance)).all();

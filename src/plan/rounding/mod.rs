@@ -16,9 +16,9 @@ use rayon::prelude::*;
 
 use super::Precision;
 use super::precision::brightest_source;
-use super::solids::{outside_by, size};
+use super::solids::{from_face_planes, outside_by, size};
 use crate::reference::{PrimaryRays, World};
-use crate::scene::{BoundingSphere, KernelFrame, Primitive, Scene, Solid};
+use crate::scene::{BoundingSphere, KernelFrame, Light, Primitive, Scene, Solid};
 use world::F32World;
 
 /// What rounding to `f32` does to a picture, as far as is known.
@@ -30,6 +30,8 @@ pub enum Rounding {
     Harmless { tried: usize },
     /// So many of the pixels that were tried are changed by more than [`Precision::rounding_bar`].
     Harmful { wrong: usize, tried: usize, cause: Cause },
+    /// Lengths differ by `ratio`, and to try pixels would take too long: solids, lights and generations are too many.
+    Unknown { ratio: f64 },
 }
 
 /// Where the trouble comes from: indices of primitives, world lengths.
@@ -46,8 +48,15 @@ pub struct Cause {
 /// What is too small or too near for such a shift.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Near {
-    Primitive { primitive: usize, size: f64 },
-    Camera { distance: f64 },
+    Primitive {
+        primitive: usize,
+        size: f64,
+    },
+    Camera {
+        distance: f64,
+    },
+    /// Nothing is, but curved mirrors enlarge it.
+    Mirrors,
 }
 
 impl fmt::Display for Cause {
@@ -63,6 +72,7 @@ impl fmt::Display for Cause {
         match near {
             Near::Primitive { primitive, size } => write!(f, "primitive {} is {} wide", primitive + 1, Short(size)),
             Near::Camera { distance } => write!(f, "the camera is {} from it", Short(distance)),
+            Near::Mirrors => write!(f, "curved mirrors that mirror each other enlarge that"),
         }
     }
 }
@@ -83,22 +93,22 @@ impl fmt::Display for Short {
     }
 }
 
-/// Pixels that are tried, at most and at least: fewer where there are many solids.
+/// Pixels that are tried, at most and, where that takes no longer than a second or so, at least.
 const MOST_TRIED: usize = 2048;
 const FEWEST_TRIED: usize = 64;
 
-/// Solids times pixels that are tried.
-const MOST_WORK: usize = 1 << 23;
+/// Solids times rays.
+const MOST_WORK: f64 = (1_u64 << 25) as f64;
 
 /// Of the pixels that are tried, so many may be wrong: of a picture with 5 in 1000 wrong, more than that of 2048 are, with a
-/// probability of 99.7 %.
+/// probability of 99.7 %; of fewer, with a lower one.
 const FEW: f64 = 0.001;
 
 /// Where only mirrors are in doubt: they change single pixels at the edges of images in images, which `f64` would be dear
 /// for.
 const FEW_IN_MIRRORS: f64 = 0.005;
 
-/// In scenes whose lengths differ by less than that, a surface moves by at most 8u of that, half a hundredth of the
+/// In scenes whose lengths differ by less than that, a surface moves by at most 8u of that, four thousandths of the
 /// smallest solid.
 const MILD_RATIO: f64 = 8192.0;
 
@@ -109,8 +119,8 @@ const MILD_RATIO_IN_MIRRORS: f64 = 1.0 / (510.0 * 8.0 * (f32::EPSILON as f64 / 2
 /// A quarter of a pixel.
 const MILD_SHIFT_PIXELS: f64 = 0.25;
 
-/// How much a curved mirror enlarges the error of an angle, at most in scenes where that is not tried: measured as 5 and
-/// more between facing spheres (catalogue MR-2).
+/// How much a curved mirror enlarges the error of an angle: about that between facing spheres (catalogue MR-2), which are
+/// nearer to each other than most.
 const MIRROR_GAIN: f64 = 5.0;
 
 /// For a picture of so many pixels in `depth` generations, silhouettes of which that are seen directly move by no more than
@@ -122,20 +132,45 @@ pub fn of_f32(scene: &Scene, depth: u32, size: [u32; 2], shift_pixels: f64) -> R
     let ratio = ratio_of_lengths(scene);
     let are_lengths_mild = shift_pixels <= MILD_SHIFT_PIXELS && ratio <= MILD_RATIO;
     let are_mirrors_mild = ratio * gain_of_mirrors(scene, depth) <= MILD_RATIO_IN_MIRRORS;
-    let allowed = match (are_lengths_mild, are_mirrors_mild) {
+    let allowed = match (are_lengths_mild && !has_grazing_light(scene), are_mirrors_mild) {
         (true, true) => return Rounding::Mild,
         (true, false) => FEW_IN_MIRRORS,
         (false, _) => FEW,
     };
-    let scene = Scene { max_depth: depth, ..scene.clone() };
-    try_pixels(&scene, size, allowed)
+    let count = (MOST_WORK / (scene.primitives.len() as f64 * rays_of_pixel(scene, depth))) as usize;
+    match (count < FEWEST_TRIED, are_lengths_mild) {
+        // Of so many solids of one size, a few faces or images in images are not seen.
+        (true, true) => Rounding::Mild,
+        (true, false) => Rounding::Unknown { ratio },
+        (false, _) if depth == scene.max_depth => try_pixels(scene, size, count, allowed),
+        (false, _) => try_pixels(&Scene { max_depth: depth, ..scene.clone() }, size, count, allowed),
+    }
+}
+
+/// About how many rays, at most, a pixel takes: where every hit mirrors, as many generations as there may be.
+fn rays_of_pixel(scene: &Scene, depth: u32) -> f64 {
+    let specular = scene.primitives.iter().map(|primitive| primitive.material.specular).fold(0.0, f64::max);
+    let generations = f64::from(depth).min(1.0 / (1.0 - specular).max(f64::EPSILON));
+    generations * (1 + scene.lights.len()) as f64
+}
+
+/// No coordinate is larger, nor a size, seen from where the kernel does.
+fn extent(scene: &Scene) -> f64 {
+    2.0 / KernelFrame::of(scene).scale
+}
+
+/// Whether a light is above the plane of a flat face by so little that `f32` takes it for one in the plane: then the face
+/// loses its highlight.
+fn has_grazing_light(scene: &Scene) -> bool {
+    let least = extent(scene) / MILD_RATIO;
+    let grazes = |light: &Light| {
+        scene.primitives.par_iter().any(|primitive| from_face_planes(&primitive.solid, light.position) < least)
+    };
+    scene.lights.iter().any(grazes)
 }
 
 /// How many times the smallest solid, or the distance of the camera or a light from one, the whole scene is.
 fn ratio_of_lengths(scene: &Scene) -> f64 {
-    let frame = KernelFrame::of(scene);
-    // No coordinate is larger.
-    let extent = 2.0 / frame.scale;
     let nearest = |place: DVec3| {
         let distance = |primitive: &Primitive| outside_by(&primitive.solid, place).abs();
         scene.primitives.par_iter().map(distance).reduce(|| f64::INFINITY, f64::min)
@@ -143,7 +178,7 @@ fn ratio_of_lengths(scene: &Scene) -> f64 {
     let smallest = scene.primitives.par_iter().map(|primitive| BoundingSphere::of(&primitive.solid).radius);
     let smallest = smallest.reduce(|| f64::INFINITY, f64::min);
     let eyes = std::iter::once(scene.camera.position).chain(scene.lights.iter().map(|light| light.position));
-    extent / eyes.map(nearest).fold(smallest, f64::min)
+    extent(scene) / eyes.map(nearest).fold(smallest, f64::min)
 }
 
 /// How many times an error of an angle may be enlarged, and then seen, by curved mirrors.
@@ -154,11 +189,11 @@ fn gain_of_mirrors(scene: &Scene, depth: u32) -> f64 {
 }
 
 /// Harmful where more than this share of the pixels is wrong, of few pixels more than one.
-fn try_pixels(scene: &Scene, size: [u32; 2], allowed: f64) -> Rounding {
+fn try_pixels(scene: &Scene, size: [u32; 2], count: usize, allowed: f64) -> Rounding {
     let frame = KernelFrame::of(scene);
     let (exact, rounded) = (World::new(scene), F32World::new(scene, &frame));
     let rays = PrimaryRays::new(&scene.camera, size[0], size[1]);
-    let pixels = pixels(size, (MOST_WORK / scene.primitives.len()).clamp(FEWEST_TRIED, MOST_TRIED));
+    let pixels = pixels(size, count.min(MOST_TRIED));
     let tolerance = (Precision::F32.rounding_bar() * brightest_source(scene).max(1.0)) as f32;
     let wrong: Vec<Vec<u32>> = pixels
         .par_iter()
@@ -177,7 +212,11 @@ fn try_pixels(scene: &Scene, size: [u32; 2], allowed: f64) -> Rounding {
         return Rounding::Harmless { tried: pixels.len() };
     }
     let met: Vec<usize> = wrong.iter().flatten().map(|&primitive| primitive as usize).collect();
-    Rounding::Harmful { wrong: wrong.len(), tried: pixels.len(), cause: cause(scene, &frame, &met) }
+    let mut cause = cause(scene, &frame, &met);
+    if allowed == FEW_IN_MIRRORS {
+        cause.near = Near::Mirrors;
+    }
+    Rounding::Harmful { wrong: wrong.len(), tried: pixels.len(), cause }
 }
 
 /// Pixels all over a picture, so many or all that there are; counted from the left and from the top.
@@ -228,7 +267,7 @@ mod tests {
         for entry in gallery::entries() {
             let scene = gallery::scene(&entry.name).unwrap();
             if !scene.primitives.is_empty() {
-                let rounding = try_pixels(&scene, [1621, 701], FEW);
+                let rounding = try_pixels(&scene, [1621, 701], MOST_TRIED, FEW);
                 assert!(matches!(rounding, Rounding::Harmless { .. }), "{}: {rounding:?}", entry.name);
             }
         }
@@ -237,6 +276,31 @@ mod tests {
     #[test]
     fn an_empty_scene_is_right_however_it_is_looked_at() {
         assert_eq!(of_f32(&Scene::default(), 20, [1621, 701], 1e9), Rounding::Mild);
+    }
+
+    #[test]
+    fn what_would_take_too_long_to_try_is_not_known() {
+        let mut scene = gallery::scene("cloud-100000").unwrap();
+        let of = |scene: &Scene| of_f32(scene, 1000, [1621, 701], 0.0);
+        scene.lights = vec![Light { position: DVec3::Y * 100.0, ..Light::default() }; 64];
+        assert_eq!(of(&scene), Rounding::Mild, "like solids");
+        if let Solid::Sphere { radius, .. } = &mut scene.primitives[0].solid {
+            *radius = 1e-6;
+        }
+        assert!(matches!(of(&scene), Rounding::Unknown { ratio } if ratio > MILD_RATIO), "{:?}", of(&scene));
+    }
+
+    #[test]
+    fn a_light_just_above_the_plane_of_a_face_is_looked_at() {
+        let grazes = |y: f64| {
+            let mut scene = gallery::scene("box").unwrap();
+            if let Solid::Box { center, half_size, rotation_degrees } = &mut scene.primitives[0].solid {
+                (*center, *half_size, *rotation_degrees) = (DVec3::ZERO, DVec3::new(5.0, 1.0, 5.0), DVec3::ZERO);
+            }
+            scene.lights = vec![Light { position: DVec3::new(9.0, y, 0.3), ..Light::default() }];
+            has_grazing_light(&scene)
+        };
+        assert_eq!([3.0, 1.0, 1.0 + 1e-6].map(grazes), [false, false, true]);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use glam::{DMat3, DVec3, Vec3};
 
 use super::line::{AxisLine, Face, Interval, Line, Ray, ordered_roots};
-use crate::plan::Precision;
+use crate::plan::{Precision, solids};
 use crate::scene::{KernelFrame, Solid, world_from_box};
 
 /// Kernel frame. What the kernel has as a value and its error is `f64`.
@@ -73,7 +73,7 @@ impl F32Solid {
                 let half_axis = half_b - half_a;
                 Self::Cylinder {
                     center: half_a + half_b,
-                    axis: exact_unit(half_axis),
+                    axis: solids::unit(half_axis),
                     radius: length(radius),
                     half_length: half_axis.length() as f32,
                 }
@@ -82,7 +82,7 @@ impl F32Solid {
                 let (sine, cosine) = half_angle_degrees.to_radians().sin_cos();
                 Self::Cone {
                     apex: frame.point(apex).as_vec3(),
-                    axis: exact_unit(axis),
+                    axis: solids::unit(axis),
                     height: length(height),
                     base_radius: length(height * sine / cosine),
                     sine: sine as f32,
@@ -295,11 +295,6 @@ impl F32Solid {
             _ => (Vec3::NAN, Vec3::NAN),
         }
     }
-}
-
-/// Of any length but zero, whose square need not be a number.
-pub fn exact_unit(vector: DVec3) -> DVec3 {
-    (vector / vector.abs().max_element()).normalize()
 }
 
 pub fn unit(vector: Vec3) -> Vec3 {

@@ -3,7 +3,8 @@
 use glam::{DVec3, Vec3};
 
 use super::line::{Face, Ray};
-use super::solids::{F32Hit, F32Solid, Origin, SURFACE_ERROR, exact_unit, is_large_enough, unit};
+use super::solids::{F32Hit, F32Solid, Origin, SURFACE_ERROR, is_large_enough, unit};
+use crate::plan::solids;
 use crate::scene::{BoundingSphere, Camera, KernelFrame, Light, Projection, Scene};
 
 /// A scene in the numbers of the `f32` kernel; kernel frame.
@@ -17,7 +18,7 @@ pub struct F32World<'a> {
 
 struct F32Light {
     position: Vec3,
-    /// None where nothing of it is seen.
+    /// `None` where nothing of it is seen.
     sphere: Option<F32Solid>,
     intensity: Vec3,
 }
@@ -150,15 +151,10 @@ impl<'a> F32World<'a> {
     }
 }
 
-/// Lights farther than that are moved here along their direction, as the kernel's are.
-const FARTHEST_LIGHT: f64 = (1_u64 << 60) as f64;
-
 impl F32Light {
     fn of(light: &Light, frame: &KernelFrame) -> Self {
-        let position = frame.point(light.position);
-        let nearer = (FARTHEST_LIGHT / position.abs().max_element()).min(1.0);
-        let position = (position * nearer).as_vec3();
-        let radius = (light.radius * frame.scale * nearer) as f32;
+        let (position, radius) = frame.light(light);
+        let (position, radius) = (position.as_vec3(), radius as f32);
         Self {
             position,
             sphere: (radius > 0.0).then_some(F32Solid::Sphere { center: position, radius }),
@@ -168,8 +164,8 @@ impl F32Light {
 }
 
 fn primary_direction(camera: &Camera, [column, row]: [u32; 2], [width, height]: [u32; 2]) -> Vec3 {
-    let ahead = exact_unit(camera.direction);
-    let left = exact_unit(exact_unit(camera.up).cross(ahead));
+    let ahead = solids::unit(camera.direction);
+    let left = solids::unit(solids::unit(camera.up).cross(ahead));
     let half_height = (camera.vertical_fov_degrees.to_radians() / 2.0).tan();
     let half_width = half_height * f64::from(width) / f64::from(height);
     let x = (2 * column + 1) as f32 / (2 * width) as f32;

@@ -34,7 +34,7 @@ const VERSION: u32 = 1;
 const VERSION_OF_RADII: u32 = 2;
 /// In a kind's byte.
 const HAS_NAME: u8 = 128;
-/// Bytes of a light, and of the smallest primitive.
+/// Bytes of the smallest light, and of the smallest primitive.
 const LIGHT_BYTES: usize = 6 * 8;
 const SMALLEST_PRIMITIVE_BYTES: usize = 1 + (4 + 6) * 8;
 

@@ -295,7 +295,7 @@ impl Session {
         observation.gpu_time_ms = self.frame_times.percentile_ns(50).map(|median_ns| median_ns as f64 / 1e6);
         observation.uploaded_bytes = screen.canvas.uploaded_bytes();
         observation.refusal = self.refusal.clone();
-        if let Some(chosen) = &self.chosen {
+        if let (Kernel::Accurate(_), Some(chosen)) = (self.state.kernel, &self.chosen) {
             observation.kernel = format!("whitted {}", chosen.precision.name());
         }
         observation.device_losses = self.losses.count;

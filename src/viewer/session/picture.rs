@@ -8,8 +8,9 @@ use super::super::reference_worker::ReferenceWorker;
 use super::super::screen::ScreenError;
 use super::super::state::Message;
 use super::{Reference, Screenshot, Session};
-use crate::plan::{Limits, PlanError, Precision};
+use crate::plan::{Limits, PlanError};
 use crate::scene::Scene;
+use crate::setting::Setting;
 use crate::tracer::{self, Canvas, TracerError, Work, limits_of};
 
 impl Session {
@@ -65,13 +66,15 @@ impl Session {
 
     fn ask_kernel(&mut self, limits: &Limits, size: [u32; 2]) -> Result<(), TracerError> {
         let scene = self.state.document.scene();
-        let precision = self.chosen.as_ref().map_or(Precision::F32, |chosen| chosen.precision);
+        let chosen = self.chosen.as_ref().map(|chosen| chosen.precision);
         let (kernel, work) = match self.state.kernel {
             Kernel::Course => (tracer::Kernel::Course, Work::WHOLE),
-            Kernel::Accurate(_) => (tracer::Kernel::Whitted(precision), Work::WHOLE),
+            Kernel::Accurate(_) => (tracer::Kernel::Whitted(chosen.unwrap_or_default()), Work::WHOLE),
             Kernel::Reference => return self.ask_for_reference(),
             // What may be left out is another thing for every scene.
             Kernel::BySetting(setting) => {
+                // With the precision chosen already, no pixels are tried for it.
+                let setting = Setting { precision: chosen.or(setting.precision), ..setting };
                 let drawing = setting.drawing(scene, limits, size[0], size[1]);
                 let settings = drawing.map_err(|error| TracerError::Refused(error.to_string()))?.settings;
                 (settings.kernel, Work::of(&settings))

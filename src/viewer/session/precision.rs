@@ -4,26 +4,49 @@ use super::super::action::Kernel;
 use super::Session;
 use crate::plan::{Limits, Plan, PlanError, Precision, Wishes};
 use crate::scene::Scene;
+use crate::setting::{self, Setting};
 
 /// The plan's answer for a scene at a size.
 pub(super) struct Chosen {
     scene: Scene,
     size: [u32; 2],
-    /// By the user; `None`: as the scene needs.
-    asked: Option<Precision>,
+    asked: Asked,
     pub precision: Precision,
     /// Why the picture is not right.
     pub warning: Option<String>,
 }
 
+/// What the answer depends on besides.
+#[derive(Clone, Copy, PartialEq)]
+struct Asked {
+    /// `None`: as the scene needs.
+    precision: Option<Precision>,
+    max_depth: Option<u32>,
+    error: f64,
+}
+
+impl Asked {
+    /// `None` of kernels that calculate in one way.
+    fn by(kernel: Kernel) -> Option<Self> {
+        match kernel {
+            Kernel::Accurate(precision) => Some(Self { precision, max_depth: None, error: 0.0 }),
+            Kernel::BySetting(Setting { kernel: setting::Kernel::Whitted, precision, max_depth, error, .. }) => {
+                Some(Self { precision, max_depth, error })
+            }
+            Kernel::BySetting(_) | Kernel::Course | Kernel::Reference => None,
+        }
+    }
+}
+
 impl Chosen {
-    fn is_for(&self, scene: &Scene, size: [u32; 2], asked: Option<Precision>) -> bool {
+    fn is_for(&self, scene: &Scene, size: [u32; 2], asked: Asked) -> bool {
         (self.size, self.asked) == (size, asked) && self.scene == *scene
     }
 
-    fn new(scene: &Scene, size: [u32; 2], asked: Option<Precision>, limits: &Limits) -> Result<Self, PlanError> {
-        let wishes = Wishes { precision: asked, ..Wishes::exact(size[0], size[1]) };
-        let plan = Plan::for_scene(scene, &wishes, limits)?;
+    fn new(scene: &Scene, size: [u32; 2], asked: Asked, limits: &Limits) -> Result<Self, PlanError> {
+        let Asked { precision, max_depth, error } = asked;
+        let wishes = Wishes { precision, max_depth, error, width: size[0], height: size[1] };
+        let plan = Plan::for_scene(scene, &wishes, limits)?.with_f32_tried(scene, &wishes);
         Ok(Self { scene: scene.clone(), size, asked, precision: plan.precision.choice, warning: plan.warning() })
     }
 }
@@ -40,7 +63,7 @@ impl Session {
         size: [u32; 2],
         is_at_rest: bool,
     ) -> Result<(), PlanError> {
-        let Kernel::Accurate(asked) = self.state.kernel else {
+        let Some(asked) = Asked::by(self.state.kernel) else {
             (self.chosen, self.is_precision_known) = (None, true);
             return Ok(());
         };

@@ -1,0 +1,111 @@
+//! Options that several commands have.
+
+use anyhow::Result;
+use clap::ValueEnum;
+use clap::builder::RangedI64ValueParser;
+use serde::Serialize;
+
+use crate::frame::Frame;
+use crate::scene::DEPTH_LIMIT;
+use crate::tracer;
+use crate::tracer::sampling::{MAX_SAMPLES, Sampling};
+
+/// What the accurate kernel calculates in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Precision {
+    #[default]
+    F32,
+    /// Only where the device has it
+    F64,
+}
+
+impl Precision {
+    /// As the library calls it.
+    pub(super) fn in_library(self) -> tracer::Precision {
+        match self {
+            Self::F32 => tracer::Precision::F32,
+            Self::F64 => tracer::Precision::F64,
+        }
+    }
+
+    pub(super) fn of_library(precision: tracer::Precision) -> Self {
+        match precision {
+            tracer::Precision::F32 => Self::F32,
+            tracer::Precision::F64 => Self::F64,
+        }
+    }
+}
+
+pub(super) fn parse_depth() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT))
+}
+
+pub(super) fn parse_samples() -> RangedI64ValueParser<u32> {
+    clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES))
+}
+
+/// Such as 0.5 or 1/2.
+pub(super) fn parse_scale(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let scale = match text.split_once('/') {
+        Some((above, below)) => number(above).zip(number(below)).map(|(above, below)| above / below),
+        None => number(text),
+    };
+    let scale = scale.ok_or("it must be a number or a fraction, such as 0.5 or 1/2")?;
+    Sampling { scale, ..Sampling::PLAIN }.check().map_err(|error| error.to_string())?;
+    Ok(scale)
+}
+
+pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
+    let sides = text.split_once(['x', 'X', '×']);
+    let size = sides.and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    let (width, height) = size.ok_or("it must be WIDTHxHEIGHT in pixels, such as 1621x701")?;
+    Frame::check_size(width, height).map_err(|error| error.to_string())?;
+    Ok((width, height))
+}
+
+/// A finite number, 0 or greater, as a decimal or as a fraction of two.
+pub(super) fn parse_error(text: &str) -> Result<f64, String> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let value = match text.split_once('/') {
+        Some((numerator, denominator)) => number(numerator).zip(number(denominator)).map(|(n, d)| n / d),
+        None => number(text),
+    };
+    let value = value.filter(|value| value.is_finite() && *value >= 0.0);
+    value.ok_or_else(|| "it must be a number, 0 or greater, such as 0.002 or 1/510".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scales_are_decimals_and_fractions_within_the_limits() {
+        for (text, scale) in [("1", 1.0), ("0.25", 0.25), ("1/2", 0.5), (" 3 / 4 ", 0.75)] {
+            assert_eq!(parse_scale(text), Ok(scale), "{text}");
+        }
+        for bad in ["", "0", "-1", "1/5", "2", "1/0", "nan", "x", "1/2/3", "0.2499", "inf"] {
+            assert!(parse_scale(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn sizes_are_two_sides_within_the_limits() {
+        assert_eq!(parse_size("1621x701"), Ok((1621, 701)));
+        assert_eq!(parse_size("1X16384"), Ok((1, 16384)));
+        for bad in ["", "x", "10", "10x", "0x5", "5x0", "16385x1", "-1x5", "1.5x2", "99999999999x1", "1x2x3"] {
+            assert!(parse_size(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn errors_are_decimals_and_fractions() {
+        for (text, value) in [("0", 0.0), ("0.002", 0.002), ("1/510", 1.0 / 510.0), (" 1 / 2 ", 0.5), ("1e-3", 1e-3)] {
+            assert_eq!(parse_error(text), Ok(value), "{text}");
+        }
+        for bad in ["", "-1", "1/0", "0/0", "nan", "inf", "1/-2", "1/2/3", "/", "x", "1e999", "-1/510"] {
+            assert!(parse_error(bad).is_err(), "{bad}");
+        }
+    }
+}
