@@ -12,6 +12,7 @@ mod hazards;
 mod in_flight;
 mod instance;
 mod layer;
+pub(crate) mod loader;
 mod memory;
 mod messages;
 mod physical;

@@ -18,6 +18,7 @@ mod tracers;
 mod absent_features;
 mod barriers;
 mod canvas;
+mod devices;
 mod error_budget;
 mod goldens;
 mod hierarchy;
