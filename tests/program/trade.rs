@@ -23,7 +23,9 @@ impl Trading for Place {
     #[track_caller]
     fn run_well(&self, arguments: &[&str]) -> String {
         let run = self.run(arguments);
-        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{arguments:?}: {run:?}");
+        // On a machine with other work, what takes above half a minute tells how far it is.
+        let complaints: Vec<_> = run.stderr.lines().filter(|line| !line.starts_with("progress: ")).collect();
+        assert_eq!((run.code, complaints), (Some(0), vec![]), "{arguments:?}: {run:?}");
         run.stdout
     }
 
