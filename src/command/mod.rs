@@ -267,7 +267,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.downcast_ref().is_some_and(OutputError::is_input_error)
             || cause.downcast_ref().is_some_and(SettingError::is_input_error)
             || cause.is::<PlanError>()
-            || cause.is::<trade::Contradictory>()
+            || cause.is::<options::Contradictory>()
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)
     });
     if is_reader_gone {

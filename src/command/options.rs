@@ -1,41 +1,15 @@
 //! Options that several commands have.
 
-use anyhow::Result;
-use clap::ValueEnum;
 use clap::builder::RangedI64ValueParser;
-use serde::Serialize;
 
 use crate::frame::Frame;
 use crate::scene::DEPTH_LIMIT;
-use crate::tracer;
 use crate::tracer::sampling::{MAX_SAMPLES, Sampling};
 
-/// What the accurate kernel calculates in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Precision {
-    #[default]
-    F32,
-    /// Only where the device has it
-    F64,
-}
-
-impl Precision {
-    /// As the library calls it.
-    pub(super) fn in_library(self) -> tracer::Precision {
-        match self {
-            Self::F32 => tracer::Precision::F32,
-            Self::F64 => tracer::Precision::F64,
-        }
-    }
-
-    pub(super) fn of_library(precision: tracer::Precision) -> Self {
-        match precision {
-            tracer::Precision::F32 => Self::F32,
-            tracer::Precision::F64 => Self::F64,
-        }
-    }
-}
+/// Options that do not go together.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct Contradictory(pub(super) &'static str);
 
 pub(super) fn parse_depth() -> RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT))
@@ -45,14 +19,18 @@ pub(super) fn parse_samples() -> RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES))
 }
 
+/// A number, or a fraction of two.
+fn parse_fraction(text: &str) -> Option<f64> {
+    let number = |text: &str| text.trim().parse::<f64>().ok();
+    match text.split_once('/') {
+        Some((numerator, denominator)) => Some(number(numerator)? / number(denominator)?),
+        None => number(text),
+    }
+}
+
 /// Such as 0.5 or 1/2.
 pub(super) fn parse_scale(text: &str) -> Result<f64, String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let scale = match text.split_once('/') {
-        Some((above, below)) => number(above).zip(number(below)).map(|(above, below)| above / below),
-        None => number(text),
-    };
-    let scale = scale.ok_or("it must be a number or a fraction, such as 0.5 or 1/2")?;
+    let scale = parse_fraction(text).ok_or("it must be a number or a fraction, such as 0.5 or 1/2")?;
     Sampling { scale, ..Sampling::PLAIN }.check().map_err(|error| error.to_string())?;
     Ok(scale)
 }
@@ -67,12 +45,7 @@ pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
 
 /// A finite number, 0 or greater, as a decimal or as a fraction of two.
 pub(super) fn parse_error(text: &str) -> Result<f64, String> {
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    let value = match text.split_once('/') {
-        Some((numerator, denominator)) => number(numerator).zip(number(denominator)).map(|(n, d)| n / d),
-        None => number(text),
-    };
-    let value = value.filter(|value| value.is_finite() && *value >= 0.0);
+    let value = parse_fraction(text).filter(|value| value.is_finite() && *value >= 0.0);
     value.ok_or_else(|| "it must be a number, 0 or greater, such as 0.002 or 1/510".to_owned())
 }
 

@@ -4,10 +4,10 @@ use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
 
-use super::options::{Precision, parse_depth, parse_error, parse_size};
+use super::options::{parse_depth, parse_error, parse_size};
 use super::{DeviceArgs, print_json, print_line, scene_named};
 use crate::gpu::{self, DeviceDescription, GpuError};
-use crate::plan::{Bounds, Cuts, Limits, Line, Plan, Wishes};
+use crate::plan::{Bounds, Cuts, Limits, Line, Plan, Precision, Wishes};
 use crate::tracer::limits_of;
 
 /// Tell what will run for a scene, what is left out and why, and what that saves
@@ -60,8 +60,7 @@ pub fn run(args: &PlanArgs) -> Result<()> {
     let device = device(args)?;
     let limits = device.as_ref().map_or(Limits::PROMISED, limits_of);
     let (width, height) = args.size;
-    let precision = args.precision.map(Precision::in_library);
-    let wishes = Wishes { precision, max_depth: args.max_depth, error: args.error, width, height };
+    let wishes = Wishes { precision: args.precision, max_depth: args.max_depth, error: args.error, width, height };
     let plan = Plan::for_scene(&scene, &wishes, &limits)?.with_f32_tried(&scene, &wishes);
     let device = device.as_ref().map(|device| device.name.as_str());
     if args.json {

@@ -9,7 +9,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use super::interrupt::Listener;
-use super::options::{Precision, parse_depth, parse_error, parse_samples, parse_scale, parse_size};
+use super::options::{parse_depth, parse_error, parse_samples, parse_scale, parse_size};
 use super::streams::{PictureFormat, STREAM, StreamArgs};
 use super::{DeviceArgs, ValidationArgs, print_line, progress_bar, refuse_messages, scene_named};
 use crate::frame::Frame;
@@ -19,7 +19,7 @@ use crate::reference::{self, RenderError};
 use crate::scene::Scene;
 use crate::setting::{self, Contradiction, Drawing, Setting};
 use crate::tracer::sampling::Sampling;
-use crate::tracer::{Tracer, TracerError, limits_of};
+use crate::tracer::{Precision, Tracer, TracerError, limits_of};
 use crate::validation::Remarked;
 
 /// Which of the program's tracers draws.
@@ -184,7 +184,7 @@ fn setting(args: &RenderArgs) -> Result<Option<Setting>> {
     };
     let setting = Setting {
         kernel,
-        precision: args.precision.map(Precision::in_library),
+        precision: args.precision,
         error: args.error,
         max_depth: args.max_depth,
         samples: args.samples,
@@ -218,7 +218,7 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &Setting) -> Result<Rend
     if listener.stop_requested() {
         return Err(TracerError::Stopped.into());
     }
-    let precision = Precision::of_library(settings.kernel.precision());
+    let precision = settings.kernel.precision();
     let kernel = Kernel::of(setting.kernel);
     let sampling = Sampling { samples: settings.samples, scale: settings.scale };
     Ok(Rendered {

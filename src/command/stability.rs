@@ -9,12 +9,11 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use super::interrupt::Listener;
-use super::options::Precision;
 use super::{DeviceArgs, ValidationArgs, print_json, print_line, progress_bar, refuse_messages};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription};
 use crate::measure::stability::{Passed, Row, Summary, error_sheet, short, try_all};
-use crate::tracer::{self, TracerError};
+use crate::tracer::{self, Precision, TracerError};
 
 /// Kernels on a Vulkan device.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -117,11 +116,10 @@ pub(super) fn kernels(args: &StabilityArgs, device: &DeviceDescription) -> Resul
             "the {name} kernel calculates in f32 only; --kernel whitted has f64"
         )));
     }
-    let precisions: &[tracer::Precision] = match args.precision {
-        Some(Precision::F32) => &[tracer::Precision::F32],
-        Some(Precision::F64) => &[tracer::Precision::F64],
-        None if device.float64 => &[tracer::Precision::F32, tracer::Precision::F64],
-        None => &[tracer::Precision::F32],
+    let precisions = match args.precision {
+        Some(precision) => vec![precision],
+        None if device.float64 => vec![Precision::F32, Precision::F64],
+        None => vec![Precision::F32],
     };
     let whitted = precisions.iter().map(|&precision| Whitted(precision));
     Ok(match args.kernel {

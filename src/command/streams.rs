@@ -5,9 +5,9 @@ use std::io::{self, IsTerminal, Write};
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
+use super::options::Contradictory;
 use crate::frame::{FileFormat, Frame};
 use crate::scene::{Scene, SceneError};
-use crate::tracer::TracerError;
 
 /// In place of a file's name.
 pub const STREAM: &str = "-";
@@ -28,11 +28,10 @@ impl StreamArgs {
     /// A format is given of what is no stream: the file's name tells it.
     pub fn check(&self, is_from_stream: bool, is_into_stream: bool) -> Result<()> {
         if self.format.is_some() && !is_from_stream {
-            return Err(TracerError::Refused("--format is for a scene from standard input, -".to_owned()).into());
+            return Err(Contradictory("--format is for a scene from standard input, -").into());
         }
         if self.output_format.is_some() && !is_into_stream {
-            let what = "--output-format is for a picture to standard output, -o -";
-            return Err(TracerError::Refused(what.to_owned()).into());
+            return Err(Contradictory("--output-format is for a picture to standard output, -o -").into());
         }
         Ok(())
     }
@@ -76,8 +75,7 @@ impl PictureFormat {
     /// Standard output is a terminal, which shows no picture.
     pub fn check_output() -> Result<()> {
         if io::stdout().is_terminal() {
-            let what = "-o -: standard output is a terminal; it must be a pipe or a file";
-            return Err(TracerError::Refused(what.to_owned()).into());
+            return Err(Contradictory("-o -: standard output is a terminal; it must be a pipe or a file").into());
         }
         Ok(())
     }

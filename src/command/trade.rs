@@ -10,7 +10,7 @@ use anyhow::Result;
 use clap::{Args, ValueEnum};
 
 use super::interrupt::Listener;
-use super::options::{parse_error, parse_size};
+use super::options::{Contradictory, parse_error, parse_size};
 use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files, scene_named};
 use crate::gpu::Device;
 use crate::measure::output::Table;
@@ -84,11 +84,6 @@ pub struct TradeArgs {
     #[command(flatten)]
     pub measuring: MeasuringArgs,
 }
-
-/// Options that do not go together.
-#[derive(Debug, thiserror::Error)]
-#[error("{0}")]
-pub struct Contradictory(&'static str);
 
 /// A question that no setting of the sweep answers.
 #[derive(Debug, thiserror::Error)]

@@ -9,7 +9,7 @@ use super::arithmetic::Arithmetic;
 use super::error::GpuError;
 use super::float_controls::FloatControls;
 use super::instance::Instance;
-use super::loader;
+use super::loader::with_device_list;
 use super::physical::{Candidate, DeviceDescription};
 use super::pipeline_cache::PipelineCache;
 
@@ -62,16 +62,15 @@ impl Device {
             .enabled_extension_names(extensions)
             .push_next(&mut of_1_0)
             .push_next(&mut features.of_1_2);
-        let device_list = loader::device_list();
         // SAFETY: `candidate` was listed by this instance and has the queue family; `info` lives through the call.
-        let raw = unsafe { instance.raw.create_device(candidate.raw, &info, None) }
+        let raw = with_device_list(|| unsafe { instance.raw.create_device(candidate.raw, &info, None) })
             .map_err(GpuError::call(|| format!("open device '{name}'")))?;
-        let names = instance.has_debug_utils.then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
-        drop(device_list);
         // SAFETY: the device was just created with one queue of that family.
         let queue = unsafe { raw.get_device_queue(candidate.queue_family, 0) };
 
         // From here on `Drop` frees what is there when a later step fails.
+        let functions = || with_device_list(|| ext::debug_utils::Device::new(&instance.raw, &raw));
+        let names = instance.has_debug_utils.then(functions);
         let mut device = Self {
             cache: PipelineCache::new(&raw, candidate.cache_identity),
             raw,
@@ -107,9 +106,8 @@ impl Device {
     pub(crate) fn set_name<T: vk::Handle>(&self, object: T, name: &str) {
         let (Some(names), Ok(name)) = (&self.names, CString::new(name)) else { return };
         let info = vk::DebugUtilsObjectNameInfoEXT::default().object_handle(object).object_name(&name);
-        let _device_list = loader::device_list();
         // SAFETY: `object` is alive and was made from this device.
-        let _ = unsafe { names.set_debug_utils_object_name(&info) };
+        let _ = with_device_list(|| unsafe { names.set_debug_utils_object_name(&info) });
     }
 
     /// Debug-label functions, where the loader offers them.
@@ -141,8 +139,7 @@ impl Drop for Device {
             let _ = self.raw.device_wait_idle();
             self.cache.destroy(&self.raw);
             drop(self.allocator.take());
-            let _device_list = loader::device_list();
-            self.raw.destroy_device(None);
+            with_device_list(|| self.raw.destroy_device(None));
         }
     }
 }

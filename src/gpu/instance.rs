@@ -5,7 +5,7 @@ use ash::{ext, vk};
 
 use super::error::GpuError;
 use super::layer::{Layer, LayerSetUp, SetUpBy, VALIDATION_LAYER, Validation, offers_extension};
-use super::loader;
+use super::loader::with_device_list;
 use super::messages::Messages;
 use super::surface::SurfaceTarget;
 
@@ -93,8 +93,7 @@ impl Drop for Instance {
             if let Some((debug_utils, messenger)) = self.messenger.take() {
                 debug_utils.destroy_debug_utils_messenger(messenger, None);
             }
-            let _device_list = loader::device_list();
-            self.raw.destroy_instance(None);
+            with_device_list(|| self.raw.destroy_instance(None));
         }
     }
 }
@@ -145,9 +144,8 @@ fn create(
         };
         info = info.push_next(&mut messenger);
     }
-    let _device_list = loader::device_list();
     // SAFETY: all that `info` points to lives until the call returns.
-    unsafe { entry.create_instance(&info, None) }.map_err(|result| match result {
+    with_device_list(|| unsafe { entry.create_instance(&info, None) }).map_err(|result| match result {
         vk::Result::ERROR_INCOMPATIBLE_DRIVER => GpuError::NoDriver,
         vk::Result::ERROR_EXTENSION_NOT_PRESENT => {
             GpuError::NoWindow("the Vulkan loader and its drivers know no windows of this platform".to_owned())

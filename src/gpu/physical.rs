@@ -8,7 +8,7 @@ use serde::Serialize;
 use super::error::GpuError;
 use super::float_controls::FloatControls;
 use super::instance::{API_VERSION, Instance, version_text};
-use super::loader;
+use super::loader::with_device_list;
 use super::surface::Surface;
 
 /// Kind of device, best first: the order in which one is chosen.
@@ -128,15 +128,13 @@ impl Features {
 
 /// With a surface, what a device lacks for showing pictures in that window counts too.
 pub(super) fn list(instance: &Instance, surface: Option<&Surface>) -> Result<Vec<Candidate>, GpuError> {
-    let device_list = loader::device_list();
     // SAFETY: the instance is alive.
-    let devices = unsafe { instance.raw.enumerate_physical_devices() };
-    drop(device_list);
-    let devices = devices.map_err(|result| match result {
-        // What a driver without its hardware answers.
-        vk::Result::ERROR_INITIALIZATION_FAILED => GpuError::NoDriver,
-        result => GpuError::Call { operation: "list the Vulkan devices".into(), result },
-    })?;
+    let devices =
+        with_device_list(|| unsafe { instance.raw.enumerate_physical_devices() }).map_err(|result| match result {
+            // What a driver without its hardware answers.
+            vk::Result::ERROR_INITIALIZATION_FAILED => GpuError::NoDriver,
+            result => GpuError::Call { operation: "list the Vulkan devices".into(), result },
+        })?;
     Ok(devices.into_iter().enumerate().map(|(index, raw)| inspect(instance, surface, index, raw)).collect())
 }
 

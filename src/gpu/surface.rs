@@ -8,7 +8,7 @@ use raw_window_handle::{HasDisplayHandle, HasWindowHandle};
 use super::device::Device;
 use super::error::GpuError;
 use super::instance::Instance;
-use super::loader;
+use super::loader::with_device_list;
 
 /// A window, by what the platform calls it.
 pub trait SurfaceTarget: HasWindowHandle + HasDisplayHandle + Send + Sync {}
@@ -74,8 +74,7 @@ impl Device {
     }
 
     pub(crate) fn swapchain_functions(&self) -> khr::swapchain::Device {
-        let _device_list = loader::device_list();
-        khr::swapchain::Device::new(&self.instance.raw, &self.raw)
+        with_device_list(|| khr::swapchain::Device::new(&self.instance.raw, &self.raw))
     }
 }
 

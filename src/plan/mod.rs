@@ -10,6 +10,7 @@
 //! assert!(plan.bounds.total() <= wishes.error);
 //! ```
 
+mod arrays;
 mod balls;
 mod budget;
 mod ceiling;
@@ -20,6 +21,7 @@ mod solids;
 mod tiling;
 mod turns;
 
+pub(crate) use arrays::{LIGHT_ROWS, MATERIAL_ROWS, SOLID_ROWS, VIEW_ROWS};
 pub use balls::Area;
 pub use budget::{Bounds, Cuts};
 pub use precision::Precision;
@@ -32,6 +34,7 @@ use glam::DVec3;
 use thiserror::Error;
 
 use crate::scene::{DEPTH_LIMIT, Scene, SolidKind};
+use arrays::check_arrays;
 use budget::{Spent, Transport, spend};
 use solids::{is_lone_and_seen_from_outside, turned_boxes};
 
@@ -232,14 +235,13 @@ impl Plan {
             bounds,
         })
     }
-}
 
-impl Plan {
     /// With [`Plan::rounding`] looked at where `f32` was asked for, too, which may take a second: for those who tell the
     /// [warning](Plan::warning). To be called with what the plan was made for.
     pub fn with_f32_tried(mut self, scene: &Scene, wishes: &Wishes) -> Self {
         if self.precision.choice == Precision::F32 && self.rounding.is_none() {
-            self.rounding = Some(precision::rounding_to_f32(scene, wishes));
+            let shift_pixels = precision::silhouette_shift_pixels(scene, wishes, Precision::F32);
+            self.rounding = Some(precision::rounding_to_f32(scene, wishes, shift_pixels));
         }
         self
     }
@@ -280,49 +282,6 @@ impl Wishes {
             Some(depth) if !(1..=DEPTH_LIMIT).contains(&depth) => Err(PlanError::Depth(depth)),
             _ => Ok(()),
         }
-    }
-}
-
-/// Rows of four numbers in the kernel's records: of a solid of each kind, of its outline, of a box around solids, a
-/// material, the view and a light (`glsl/whitted/scene.glsl`).
-pub(crate) const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
-pub(crate) const MATERIAL_ROWS: usize = 2;
-pub(crate) const VIEW_ROWS: usize = 6;
-pub(crate) const LIGHT_ROWS: usize = 2;
-const OUTLINE_ROWS: [usize; 4] = [1, 2, 2, 2];
-const BOX_ROWS: usize = 2;
-
-/// Refuses a scene that does not fit the device's arrays. Solids and boxes come in whole groups.
-fn check_arrays(scene: &Scene, counts: [usize; 4], precision: Precision, limits: &Limits) -> Result<(), PlanError> {
-    let whole = |count: usize| count.next_multiple_of(Structure::GROUP);
-    let boxes_over = |count: usize| -> usize {
-        let levels = match Structure::over(count) {
-            Structure::None => 0,
-            Structure::Hierarchy { levels } => levels,
-        };
-        (1..=levels).map(|level| whole(count.div_ceil(Structure::GROUP.pow(level)))).sum()
-    };
-    let of_kind = |kind: usize| OUTLINE_ROWS[kind] * whole(counts[kind]) + BOX_ROWS * boxes_over(counts[kind]);
-    let [spheres, boxes, cylinders, cones] = std::array::from_fn(|kind| SOLID_ROWS[kind] * whole(counts[kind]));
-    let row_bytes = match precision {
-        Precision::F32 => 16,
-        Precision::F64 => 32,
-    };
-    let own = [
-        ("view and lights", VIEW_ROWS + LIGHT_ROWS * scene.lights.len()),
-        ("spheres", spheres),
-        ("boxes", boxes),
-        ("cylinders", cylinders),
-        ("cones", cones),
-        ("materials", MATERIAL_ROWS * counts.map(whole).iter().sum::<usize>()),
-    ];
-    // The outlines are of `f32` for either precision.
-    let outlines = ("outlines", 16 * (0..4).map(of_kind).sum::<usize>() as u64);
-    let limit = limits.max_array_bytes;
-    let mut arrays = own.into_iter().map(|(array, rows)| (array, rows as u64 * row_bytes)).chain([outlines]);
-    match arrays.find(|&(_, bytes)| bytes > limit) {
-        Some((array, bytes)) => Err(PlanError::TooLarge { array, bytes, limit, precision }),
-        None => Ok(()),
     }
 }
 

@@ -1,5 +1,6 @@
 //! What a kernel calculates in, and what rounding then moves.
 
+use clap::ValueEnum;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
@@ -9,11 +10,12 @@ use super::{Decision, Limits, PlanError, Reason, Wishes};
 use crate::scene::{Camera, Projection, Scene, Solid};
 
 /// What a kernel calculates in.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize, ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
     #[default]
     F32,
+    /// Only where the device has it
     F64,
 }
 
@@ -70,16 +72,16 @@ pub(super) fn choose(
     }
     let shift_pixels = silhouette_shift_pixels(scene, wishes, Precision::F32);
     let bar = Precision::F32.rounding_bar() * brightest_source(scene).max(1.0);
-    let rounding = rounding_to_f32(scene, wishes);
-    let is_finer = wishes.error > 0.0;
+    let rounding = rounding_to_f32(scene, wishes, shift_pixels);
+    let may_err = wishes.error > 0.0;
     let (choice, reason) = match rounding {
         Rounding::Harmful { wrong, tried, cause } => (Precision::F64, Reason::RoundingSpoils { wrong, tried, cause }),
         Rounding::Unknown { ratio } => (Precision::F64, Reason::RoundingIsUnknown { ratio }),
-        _ if is_finer && wishes.error < bar => (Precision::F64, Reason::RoundingExceedsError { bar }),
-        _ if is_finer && shift_pixels > LARGEST_SHIFT_PIXELS => {
+        _ if may_err && wishes.error < bar => (Precision::F64, Reason::RoundingExceedsError { bar }),
+        _ if may_err && shift_pixels > LARGEST_SHIFT_PIXELS => {
             (Precision::F64, Reason::RoundingMovesSilhouettes { shift_pixels })
         }
-        _ if is_finer => (Precision::F32, Reason::RoundingIsWithinError { bar, shift_pixels }),
+        _ if may_err => (Precision::F32, Reason::RoundingIsWithinError { bar, shift_pixels }),
         Rounding::Harmless { tried } => (Precision::F32, Reason::RoundingIsHarmless { tried, bar }),
         Rounding::Mild => (Precision::F32, Reason::RoundingIsNoCut { bar, shift_pixels }),
     };
@@ -93,10 +95,9 @@ pub(super) fn choose(
     Ok((decision, Some(rounding)))
 }
 
-/// What it does to the picture that is wished for.
-pub(super) fn rounding_to_f32(scene: &Scene, wishes: &Wishes) -> Rounding {
+/// What it does to the picture that is wished for, silhouettes of which it moves by so much.
+pub(super) fn rounding_to_f32(scene: &Scene, wishes: &Wishes, shift_pixels: f64) -> Rounding {
     let &Wishes { max_depth, width, height, .. } = wishes;
-    let shift_pixels = silhouette_shift_pixels(scene, wishes, Precision::F32);
     rounding::of_f32(scene, max_depth.unwrap_or(scene.max_depth), [width, height], shift_pixels)
 }
 

@@ -7,7 +7,7 @@ use ash::{khr, vk};
 use super::swapchain_choices::{
     choose_alpha, choose_extent, choose_format, choose_image_count, choose_present_mode, copy_region, present_mode_name,
 };
-use crate::gpu::{Device, GpuError, Recorder, Resource, Semaphores, Surface, Use, loader};
+use crate::gpu::{Device, GpuError, Recorder, Resource, Semaphores, Surface, Use, with_device_list};
 
 /// A window's images with what is needed to fill them: first the picture is copied in, then the widgets are drawn.
 pub struct Swapchain {
@@ -83,11 +83,10 @@ impl Swapchain {
             .present_mode(present_mode)
             .clipped(true);
         let functions = device.swapchain_functions();
-        let device_list = loader::device_list();
         // Null handles until made; `Drop` ignores them, so a failure on the way leaks nothing.
         let mut swapchain = Self {
             // SAFETY: surface and device are alive; the window's last swapchain is destroyed.
-            raw: unsafe { functions.create_swapchain(&info, None) }
+            raw: with_device_list(|| unsafe { functions.create_swapchain(&info, None) })
                 .map_err(GpuError::call(|| "create the swapchain"))?,
             functions,
             extent,
@@ -99,7 +98,6 @@ impl Swapchain {
             device: device.clone(),
             _surface: surface.clone(),
         };
-        drop(device_list);
         device.set_name(swapchain.raw, "window");
         swapchain.render_pass = create_render_pass(device, format.format)?;
         for index in 0..swapchain.acquired.len() {

@@ -100,13 +100,27 @@ const FEWEST_TRIED: usize = 64;
 /// Solids times rays.
 const MOST_WORK: f64 = (1_u64 << 25) as f64;
 
-/// Of the pixels that are tried, so many may be wrong: of a picture with 5 in 1000 wrong, more than that of 2048 are, with a
-/// probability of 99.7 %; of fewer, with a lower one.
-const FEW: f64 = 0.001;
+/// Why pixels are tried.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Doubt {
+    Lengths,
+    /// Lengths are mild, and curved mirrors may enlarge rounding.
+    Mirrors,
+}
 
-/// Where only mirrors are in doubt: they change single pixels at the edges of images in images, which `f64` would be dear
-/// for.
-const FEW_IN_MIRRORS: f64 = 0.005;
+impl Doubt {
+    /// How many of the pixels that are tried may be wrong.
+    fn allowed(self, tried: usize) -> usize {
+        let share = match self {
+            // Of a picture with 5 in 1000 wrong, more than that of 2048 are, with a probability of 99.7 %; of fewer, with
+            // a lower one.
+            Self::Lengths => 0.001,
+            // Single pixels at the edges of images in images, which `f64` would be dear for.
+            Self::Mirrors => 0.005,
+        };
+        ((share * tried as f64) as usize).max(1)
+    }
+}
 
 /// In scenes whose lengths differ by less than that, a surface moves by at most 8u of that, four thousandths of the
 /// smallest solid.
@@ -132,18 +146,18 @@ pub fn of_f32(scene: &Scene, depth: u32, size: [u32; 2], shift_pixels: f64) -> R
     let ratio = ratio_of_lengths(scene);
     let are_lengths_mild = shift_pixels <= MILD_SHIFT_PIXELS && ratio <= MILD_RATIO;
     let are_mirrors_mild = ratio * gain_of_mirrors(scene, depth) <= MILD_RATIO_IN_MIRRORS;
-    let allowed = match (are_lengths_mild && !has_grazing_light(scene), are_mirrors_mild) {
+    let doubt = match (are_lengths_mild && !has_grazing_light(scene), are_mirrors_mild) {
         (true, true) => return Rounding::Mild,
-        (true, false) => FEW_IN_MIRRORS,
-        (false, _) => FEW,
+        (true, false) => Doubt::Mirrors,
+        (false, _) => Doubt::Lengths,
     };
     let count = (MOST_WORK / (scene.primitives.len() as f64 * rays_of_pixel(scene, depth))) as usize;
     match (count < FEWEST_TRIED, are_lengths_mild) {
         // Of so many solids of one size, a few faces or images in images are not seen.
         (true, true) => Rounding::Mild,
         (true, false) => Rounding::Unknown { ratio },
-        (false, _) if depth == scene.max_depth => try_pixels(scene, size, count, allowed),
-        (false, _) => try_pixels(&Scene { max_depth: depth, ..scene.clone() }, size, count, allowed),
+        (false, _) if depth == scene.max_depth => try_pixels(scene, size, count, doubt),
+        (false, _) => try_pixels(&Scene { max_depth: depth, ..scene.clone() }, size, count, doubt),
     }
 }
 
@@ -188,8 +202,7 @@ fn gain_of_mirrors(scene: &Scene, depth: u32) -> f64 {
     (MIRROR_GAIN * mirrors.fold(0.0, f64::max)).max(1.0).powi(depth as i32 - 1)
 }
 
-/// Harmful where more than this share of the pixels is wrong, of few pixels more than one.
-fn try_pixels(scene: &Scene, size: [u32; 2], count: usize, allowed: f64) -> Rounding {
+fn try_pixels(scene: &Scene, size: [u32; 2], count: usize, doubt: Doubt) -> Rounding {
     let frame = KernelFrame::of(scene);
     let (exact, rounded) = (World::new(scene), F32World::new(scene, &frame));
     let rays = PrimaryRays::new(&scene.camera, size[0], size[1]);
@@ -207,13 +220,12 @@ fn try_pixels(scene: &Scene, size: [u32; 2], count: usize, allowed: f64) -> Roun
             (!is_right).then(|| seen.primitives.into_iter().chain(first).collect())
         })
         .collect();
-    let few = (allowed * pixels.len() as f64) as usize;
-    if wrong.len() <= few.max(1) {
+    if wrong.len() <= doubt.allowed(pixels.len()) {
         return Rounding::Harmless { tried: pixels.len() };
     }
     let met: Vec<usize> = wrong.iter().flatten().map(|&primitive| primitive as usize).collect();
     let mut cause = cause(scene, &frame, &met);
-    if allowed == FEW_IN_MIRRORS {
+    if doubt == Doubt::Mirrors {
         cause.near = Near::Mirrors;
     }
     Rounding::Harmful { wrong: wrong.len(), tried: pixels.len(), cause }
@@ -267,7 +279,7 @@ mod tests {
         for entry in gallery::entries() {
             let scene = gallery::scene(&entry.name).unwrap();
             if !scene.primitives.is_empty() {
-                let rounding = try_pixels(&scene, [1621, 701], MOST_TRIED, FEW);
+                let rounding = try_pixels(&scene, [1621, 701], MOST_TRIED, Doubt::Lengths);
                 assert!(matches!(rounding, Rounding::Harmless { .. }), "{}: {rounding:?}", entry.name);
             }
         }
@@ -284,9 +296,8 @@ mod tests {
         let of = |scene: &Scene| of_f32(scene, 1000, [1621, 701], 0.0);
         scene.lights = vec![Light { position: DVec3::Y * 100.0, ..Light::default() }; 64];
         assert_eq!(of(&scene), Rounding::Mild, "like solids");
-        if let Solid::Sphere { radius, .. } = &mut scene.primitives[0].solid {
-            *radius = 1e-6;
-        }
+        let center = scene.primitives[0].solid.position();
+        scene.primitives[0].solid = Solid::Sphere { center, radius: 1e-6 };
         assert!(matches!(of(&scene), Rounding::Unknown { ratio } if ratio > MILD_RATIO), "{:?}", of(&scene));
     }
 
