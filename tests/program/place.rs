@@ -74,4 +74,10 @@ impl Run {
         let text = |bytes| String::from_utf8(bytes).unwrap();
         Self { code: output.status.code(), stdout: text(output.stdout), stderr: text(output.stderr) }
     }
+
+    /// What it says on standard error, but for how far it is: where a machine has other work, a run may take above half
+    /// a minute.
+    pub fn complaints(&self) -> Vec<&str> {
+        self.stderr.lines().filter(|line| !line.starts_with("progress: ")).collect()
+    }
 }

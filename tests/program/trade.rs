@@ -23,9 +23,7 @@ impl Trading for Place {
     #[track_caller]
     fn run_well(&self, arguments: &[&str]) -> String {
         let run = self.run(arguments);
-        // On a machine with other work, what takes above half a minute tells how far it is.
-        let complaints: Vec<_> = run.stderr.lines().filter(|line| !line.starts_with("progress: ")).collect();
-        assert_eq!((run.code, complaints), (Some(0), vec![]), "{arguments:?}: {run:?}");
+        assert_eq!((run.code, run.complaints()), (Some(0), vec![]), "{arguments:?}: {run:?}");
         run.stdout
     }
 

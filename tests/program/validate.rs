@@ -74,8 +74,9 @@ fn an_interrupt_keeps_what_was_found() {
     let program = command(&[]).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     // The first runs are under way then; all of them take minutes.
     thread::sleep(Duration::from_secs(3));
-    let Run { code, stdout, stderr } = interrupted(program);
-    assert_eq!((code, stderr.as_str()), (Some(130), "zerkalo: stopped\n"));
+    let run = interrupted(program);
+    assert_eq!((run.code, run.complaints()), (Some(130), vec!["zerkalo: stopped"]));
+    let stdout = &run.stdout;
     assert!(stdout.contains("of them were begun") && stdout.contains("messages: 0"), "{stdout}");
 }
 

@@ -1,7 +1,6 @@
 //! Scenes saved, opened, and never lost without a question.
 
 use std::fs;
-use std::process::Command;
 
 use zerkalo::scene::{Scene, gallery};
 
@@ -118,29 +117,26 @@ fn a_file_that_cannot_be_read_or_written_is_told_of_and_changes_nothing() {
 }
 
 #[test]
-fn a_full_disk_keeps_the_old_file_and_the_work() {
+fn a_folder_that_went_away_keeps_the_old_file_and_the_work() {
     let desk = Desk::new(Locale::Russian, SIZE);
-    gallery::scene("four").unwrap().save(&desk.path("scene.toml")).unwrap();
-    let old = fs::read(desk.path("scene.toml")).unwrap();
-    let mut window = desk.view_with_limits(&["scene.toml"]);
+    let [stick, drawer] = ["stick", "drawer"].map(|name| desk.path(name));
+    fs::create_dir(&stick).unwrap();
+    gallery::scene("four").unwrap().save(&stick.join("scene.toml")).unwrap();
+    let old = fs::read(stick.join("scene.toml")).unwrap();
+    let mut window = desk.view(&["stick/scene.toml"]);
     edit(&mut window);
-    let pid = window.pid().to_string();
-    let allow = |bytes: &str| {
-        let limited = Command::new("prlimit").args(["--pid", &pid, &format!("--fsize={bytes}:")]).status();
-        assert!(limited.unwrap().success());
-    };
-    allow("100");
+    fs::rename(&stick, &drawer).unwrap();
     window.key("ctrl+s");
     let told = window.wait_until("a message", |now| now.says("Ошибка"));
     assert!(told.dialog.is_some_and(|dialog| dialog.contains("scene.toml")));
-    assert!(fs::read(desk.path("scene.toml")).unwrap() == old, "the old file is as it was");
+    assert!(fs::read(drawer.join("scene.toml")).unwrap() == old, "the old file is as it was");
     window.click("OK");
     let now = window.wait_until("the work is still there", |now| now.dialog.is_none());
     assert_eq!((now.primitives, now.has_unsaved_changes), (5, true));
 
-    allow("unlimited");
+    fs::rename(&drawer, &stick).unwrap();
     window.key("ctrl+s");
     window.wait_until("now it is saved", |now| !now.has_unsaved_changes);
-    assert_eq!(Scene::load(&desk.path("scene.toml")).unwrap().primitives.len(), 5);
+    assert_eq!(Scene::load(&stick.join("scene.toml")).unwrap().primitives.len(), 5);
     window.close();
 }

@@ -28,26 +28,23 @@ fn an_idle_window_costs_nothing_and_continuous_tracing_does() {
 
 const LEFT: u32 = 1;
 
-/// How long the switch under the mouse takes to be seen turned, clicked again and again: twenty times or, while a picture is
-/// traced, until it is whole.
+/// How long the switch under the mouse takes to be seen turned, twenty times.
 #[track_caller]
-fn answers(window: &mut Window, switch: &str, is_tracing: bool) -> Vec<Duration> {
+fn answers(window: &mut Window, switch: &str) -> [Duration; 20] {
     // What was done before is over.
     thread::sleep(Duration::from_secs(1));
-    let answers = (0..20).map_while(|_| {
+    std::array::from_fn(|_| {
         let before = window.now().value(switch).to_owned();
         window.press(LEFT);
         let clicked = Instant::now();
         let mut hand = window.release_at_once(LEFT);
-        let answered = window.wait_until("the switch turns", |now| now.value(switch) != before);
+        window.wait_until("the switch turns", |now| now.value(switch) != before);
         let time = clicked.elapsed();
         hand.wait().unwrap();
-        assert!(is_tracing || answered.is_whole, "{}", answered.in_short());
         // Longer than between the two of a double click.
         thread::sleep(Duration::from_millis(320));
-        (is_tracing != answered.is_whole).then_some(time)
-    });
-    answers.collect()
+        time
+    })
 }
 
 fn median(times: &[Duration]) -> Duration {
@@ -63,19 +60,22 @@ fn the_panel_answers_while_a_slow_picture_is_traced() {
     let switch = "Инвертировать мышь";
     window.click(switch);
     window.settle();
-    let idle = answers(&mut window, switch, false);
-    // Ten seconds of work for a software device; how many answers come before they are over differs.
+    let idle = answers(&mut window, switch);
+    // One picture of some seconds on a software device after another.
+    window.click("Непрерывная трассировка");
     window.menu(&["Галерея", "Таблица 4.1: кубы", "таблица 4.1: кубы, 100"]);
     window.wait_until("the grid", |now| now.primitives == 100);
     window.click(switch);
-    let busy = answers(&mut window, switch, true);
+    let pictures = window.now().pictures_traced;
+    let busy = answers(&mut window, switch);
+    let traced = window.now().pictures_traced - pictures;
+    assert!(traced < busy.len() as u64, "{traced} pictures were traced meanwhile: they are not slow");
     eprintln!(
         "answers at rest: median {:?}; while a slow picture is traced: median {:?}",
         median(&idle),
         median(&busy)
     );
     eprintln!("all of the latter: {busy:?}");
-    assert!(!busy.is_empty());
     // The issue asks for 100 ms. xdotool's own start, the validation layers and the two cores, which the software device takes
     // whole, are in the figure too; a window that waited for a picture of many seconds would be far off.
     assert!(median(&busy) < Duration::from_millis(250), "{busy:?}");

@@ -77,15 +77,6 @@ impl Desk {
         self.open(self.program(&viewing(arguments)))
     }
 
-    /// As [`Desk::view`]; files that grow beyond a limit set later are faults of writing and do not end the program.
-    #[track_caller]
-    pub fn view_with_limits(&self, arguments: &[&str]) -> Window<'_> {
-        let shell = ["-c", "trap '' XFSZ; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_zerkalo")];
-        let mut window = self.open(self.command("sh", &[&shell, &viewing(arguments)[..]].concat()));
-        window.settle();
-        window
-    }
-
     #[track_caller]
     fn open(&self, mut command: Command) -> Window<'_> {
         let complaints = self.path("stderr.txt");
