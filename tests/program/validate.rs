@@ -4,7 +4,7 @@ use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use crate::place::{Run, interrupted};
+use crate::place::interrupted;
 use serde_json::Value;
 
 /// Where there is no display.
