@@ -41,7 +41,9 @@ Real ball_ahead(Ray ray, Light lamp, bool looks, out Real3 intensity) {
         turns++;
         Light ball_light = light_with_ball(i, lamp);
         Hit ball;
-        bool is_met = meet(Sphere(ball_light.position, ball_light.ball_radius), ray, FREE, CURVED, ball);
+        // In a close-up about its centre, as there is nothing that touches it.
+        Sphere sphere = Sphere(ball_light.position, ball_light.ball_radius, Real3(0.0), -0.5 * ball_light.ball_radius, Real3(0.0));
+        bool is_met = meet(sphere, ray, FREE, CURVED, ball);
         // From within there is nothing to see of it, nor of one without a radius.
         bool is_there = ball_light.ball_radius > 0.0 && !ball.inside;
         bool is_seen = i < frame.light_count && is_met && is_there && ball.t < t;

@@ -19,7 +19,7 @@ Interval slab(Box box, Line line, Real3 axis, Real3 axis_error, uint k) {
         slope = exact_dot(axis, axis_error, Sum3(line.direction, Real3(0.0)));
     }
     uint face = SLAB + 2u * k;
-    return between_planes(offset, slope, -box.half_size[k], face, box.half_size[k], face + 1u);
+    return between_planes(offset, slope, box.low[k], face, box.half_size[k], face + 1u);
 }
 
 // A tie goes to the lowest axis.
@@ -42,7 +42,21 @@ Real depth(Box box, Real3 from_anchor) {
     return min(below.x, min(below.y, below.z));
 }
 
+// The same in a close-up, each face by so many times what the place of a point may be off across it.
+Real depth_with_errors(Box box, Real3 from_anchor, Real place, Real errors) {
+    Real3 x = abs(from_anchor);
+    Real3 across = ARE_BOXES_UPRIGHT ? x : Real3(dot(abs(box.axis_x), x), dot(abs(box.axis_y), x), dot(abs(box.axis_z), x));
+    Real3 at = in_axes(box, from_anchor);
+    Real3 unit_errors = errors * SURFACE_ERROR * (Real3(place) + across);
+    Real3 above_low = at - box.low + (unit_errors + errors * SURFACE_ERROR * abs(box.low));
+    Real3 below_high = box.half_size - at + (unit_errors + errors * SURFACE_ERROR * abs(box.half_size));
+    Real3 inside = min(above_low, below_high);
+    return min(inside.x, min(inside.y, inside.z));
+}
+
 Real size(Box box) { return box.size; }
+
+Real size_near(Box box, Real3 point) { return largest_component(point - box.center); }
 
 // Outward unit normal and point of a face, kernel frame.
 void surface(Box box, BoxLine at, Real s, uint face, out Real3 point, out Real3 normal) {
@@ -50,6 +64,7 @@ void surface(Box box, BoxLine at, Real s, uint face, out Real3 point, out Real3 
     bool positive = ((face - SLAB) & 1u) == 1u;
     Real3 across = axis == 0u ? box.axis_x : (axis == 1u ? box.axis_y : box.axis_z);
     Real half_size = axis == 0u ? box.half_size.x : (axis == 1u ? box.half_size.y : box.half_size.z);
+    if (IS_CLOSE_UP && !positive) half_size = -(axis == 0u ? box.low.x : (axis == 1u ? box.low.y : box.low.z));
     normal = positive ? across : -across;
     precise Real3 from_center = at.line.closest.value + (at.line.closest.error + s * at.line.direction);
     precise Real above = half_size - dot(normal, from_center);

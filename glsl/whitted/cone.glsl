@@ -99,7 +99,14 @@ Real depth(Cone cone, Real3 from_anchor) {
     return min(to_side, min(along, cone.height - along));
 }
 
+// The same in a close-up, each face by so many times what the place of a point may be off across it.
+Real depth_with_errors(Cone cone, Real3 from_anchor, Real place, Real errors) {
+    return depth(cone, from_anchor) + errors * SURFACE_ERROR * (place + largest_component(from_anchor));
+}
+
 Real size(Cone cone) { return cone.size; }
+
+Real size_near(Cone cone, Real3 point) { return largest_component(point - cone.apex); }
 
 // Outward unit normal and point of a face, kernel frame. At the apex, where there is none, the normal is against the
 // axis.

@@ -9,7 +9,9 @@ bool meet(SOLID solid, Ray ray, uint origin, uint own_face, out Hit hit) {
     bool is_met = inside.near <= inside.far;
     Real place = origin == FREE ? Real(0.0) : largest_component(ray.origin);
     Real position_error = SURFACE_ERROR * (place + size(solid));
-    hit.inside = origin == OWN_INSIDE || depth(solid, at.line.origin) >= -position_error;
+    bool starts_inside = IS_CLOSE_UP ? depth_with_errors(solid, at.line.origin, place, Real(1.0)) >= 0.0
+                                     : depth(solid, at.line.origin) >= -position_error;
+    hit.inside = origin == OWN_INSIDE || starts_inside;
     Real s = hit.inside ? inside.far : inside.near;
     hit.t = t_at(at.line, s);
     hit.face = hit.inside ? inside.far_face : inside.near_face;
@@ -20,7 +22,9 @@ bool meet(SOLID solid, Ray ray, uint origin, uint own_face, out Hit hit) {
         Real least_depth = origin == FREE ? 0.25 * position_error : position_error;
         Real start = max(inside.near, -line_start(at.line));
         Real3 middle = at.line.closest.value + (0.5 * (start + inside.far)) * at.line.direction;
-        is_ahead = is_ahead && depth(solid, middle) > least_depth;
+        bool is_deep = IS_CLOSE_UP ? depth_with_errors(solid, middle, place, Real(origin == FREE ? -0.25 : -1.0)) > 0.0
+                                   : depth(solid, middle) > least_depth;
+        is_ahead = is_ahead && is_deep;
     }
     // A ray inside of a convex solid does leave it: where rounding put its origin beyond the exit, where it starts.
     bool leaves_here = origin == OWN_INSIDE && !is_ahead;
@@ -32,6 +36,6 @@ bool meet(SOLID solid, Ray ray, uint origin, uint own_face, out Hit hit) {
     surface(solid, at, s, hit.face, hit.point, hit.normal);
     if (leaves_here) hit.point = ray.origin;
     if (hit.inside) hit.normal = -hit.normal;
-    hit.size = size(solid);
+    hit.size = IS_CLOSE_UP ? size_near(solid, hit.point) : size(solid);
     return is_ahead || leaves_here;
 }

@@ -6,14 +6,19 @@
 // a primitive's place in that row is its slot.
 
 struct Sphere {
-    Real3 center;
+    Real3 center;         // in a close-up the anchor
     Real radius;
+    // In a close-up: the sphere's equation about the anchor, radius * (offset + slope . x + |x|^2 / (2 * radius)) = 0.
+    Real3 slope;          // + slope_error: from the centre to the anchor, in radii
+    Real offset;
+    Real3 slope_error;
 };
 
 struct Box {
     Real3 center;
     Real size;      // the largest half size
-    Real3 half_size;
+    Real3 half_size;      // in a close-up the upper faces', from the anchor
+    Real3 low;            // the lower faces', from there
     Real3 axis_x;   // + axis_x_error: unit, kernel frame
     Real3 axis_y;
     Real3 axis_z;
@@ -23,14 +28,19 @@ struct Box {
 };
 
 struct Cylinder {
-    Real3 center;       // + center_error: between the ends
+    Real3 center;       // + center_error: between the ends; in a close-up the anchor
     Real radius;
     Real3 center_error;
-    Real half_length;
+    Real half_length;   // in a close-up the second end's place along the axis, from the anchor
+    Real low;           // the first end's, from there
     Real3 axis;         // + axis_error: unit, from the first end to the second
     Real size;          // the larger of radius and half length
     Real3 axis_error;
-    Real reach;         // of the bounding sphere about the centre
+    Real reach;         // of the bounding sphere about the centre, or the anchor
+    // In a close-up, across the axis, what a sphere has.
+    Real3 slope;
+    Real offset;
+    Real3 slope_error;
 };
 
 struct Cone {
@@ -81,6 +91,10 @@ layout(constant_id = 9) const uint SPHERE_LEVELS = 0u;
 layout(constant_id = 10) const uint BOX_LEVELS = 0u;
 layout(constant_id = 11) const uint CYLINDER_LEVELS = 0u;
 layout(constant_id = 12) const uint CONE_LEVELS = 0u;
+// A close-up, of solids beside which the way to the camera is short: the frame's origin is the camera, and anchors are
+// the places of spheres, boxes and axes nearest to it, so that what rounding loses goes by how far off things are, and not
+// by the solid's size.
+layout(constant_id = 20) const bool IS_CLOSE_UP = false;
 // What there is not, or the plan has left out.
 layout(constant_id = 13) const bool HAS_HIGHLIGHTS = true;
 layout(constant_id = 14) const uint LIGHTS = 2u; // none, one, or several
@@ -125,8 +139,12 @@ Material material(uint slot) {
 
 // The solids of a kind are counted by themselves.
 Sphere sphere(uint index) {
+    if (IS_CLOSE_UP) {
+        Real4 a = ROW(sphere_rows, 3u * index), b = ROW(sphere_rows, 3u * index + 1u);
+        return Sphere(a.xyz, a.w, b.xyz, b.w, ROW(sphere_rows, 3u * index + 2u).xyz);
+    }
     Real4 a = ROW(sphere_rows, index);
-    return Sphere(a.xyz, a.w);
+    return Sphere(a.xyz, a.w, Real3(0.0), Real(0.0), Real3(0.0));
 }
 
 Box box(uint index) {
@@ -137,6 +155,10 @@ Box box(uint index) {
     box.size = a.w;
     Real4 x = ROW(box_rows, first + 1u), y = ROW(box_rows, first + 2u), z = ROW(box_rows, first + 3u);
     box.half_size = Real3(x.w, y.w, z.w);
+    box.low = -box.half_size;
+    if (IS_CLOSE_UP) {
+        for (uint k = 0u; k < 3u; k++) box.low[k] = ROW(box_rows, first + 4u + k).w;
+    }
     box.axis_x = ARE_BOXES_UPRIGHT ? Real3(1.0, 0.0, 0.0) : x.xyz;
     box.axis_y = ARE_BOXES_UPRIGHT ? Real3(0.0, 1.0, 0.0) : y.xyz;
     box.axis_z = ARE_BOXES_UPRIGHT ? Real3(0.0, 0.0, 1.0) : z.xyz;
@@ -147,10 +169,15 @@ Box box(uint index) {
 }
 
 Cylinder cylinder(uint index) {
-    uint first = 4u * index;
+    uint first = (IS_CLOSE_UP ? 5u : 4u) * index;
     Real4 a = ROW(cylinder_rows, first), b = ROW(cylinder_rows, first + 1u);
     Real4 c = ROW(cylinder_rows, first + 2u), d = ROW(cylinder_rows, first + 3u);
-    return Cylinder(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz, d.w);
+    if (IS_CLOSE_UP) {
+        Real4 e = ROW(cylinder_rows, first + 4u);
+        Real size = max(a.w, b.w - c.w);
+        return Cylinder(a.xyz, a.w, Real3(0.0), b.w, c.w, c.xyz, size, d.xyz, d.w, b.xyz, e.w, e.xyz);
+    }
+    return Cylinder(a.xyz, a.w, b.xyz, b.w, -b.w, c.xyz, c.w, d.xyz, d.w, Real3(0.0), Real(0.0), Real3(0.0));
 }
 
 Cone cone(uint index) {

@@ -1,16 +1,22 @@
 //! What a scene takes of a device's memory.
 
-use super::{Limits, PlanError, Precision, Structure};
-use crate::scene::Scene;
+use super::{Limits, PlanError, Precision, Structure, is_close_up};
+use crate::scene::{Scene, SolidKind};
 
 /// Rows of four numbers in the kernel's records: of a solid of each kind, of its outline, of a box around solids, a
 /// material, the view and a light (`glsl/whitted/scene.glsl`).
-pub(crate) const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
+const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
+const CLOSE_UP_ROWS: [usize; 4] = [3, 7, 5, 4];
 pub(crate) const MATERIAL_ROWS: usize = 2;
 pub(crate) const VIEW_ROWS: usize = 6;
 pub(crate) const LIGHT_ROWS: usize = 2;
 const OUTLINE_ROWS: [usize; 4] = [1, 2, 2, 2];
 const BOX_ROWS: usize = 2;
+
+/// Rows of a solid of that kind.
+pub(crate) fn solid_row_count(kind: SolidKind, is_close_up: bool) -> usize {
+    if is_close_up { CLOSE_UP_ROWS[kind as usize] } else { SOLID_ROWS[kind as usize] }
+}
 
 /// Refuses a scene that does not fit the device's arrays. Solids and boxes come in whole groups.
 pub(super) fn check_arrays(
@@ -28,7 +34,9 @@ pub(super) fn check_arrays(
         (1..=levels).map(|level| whole(count.div_ceil(Structure::GROUP.pow(level)))).sum()
     };
     let of_kind = |kind: usize| OUTLINE_ROWS[kind] * whole(counts[kind]) + BOX_ROWS * boxes_over(counts[kind]);
-    let [spheres, boxes, cylinders, cones] = std::array::from_fn(|kind| SOLID_ROWS[kind] * whole(counts[kind]));
+    let is_close_up = is_close_up(scene, precision);
+    let [spheres, boxes, cylinders, cones] =
+        SolidKind::ALL.map(|kind| solid_row_count(kind, is_close_up) * whole(counts[kind as usize]));
     let row_bytes = match precision {
         Precision::F32 => 16,
         Precision::F64 => 32,

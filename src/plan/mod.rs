@@ -21,12 +21,12 @@ mod solids;
 mod tiling;
 mod turns;
 
-pub(crate) use arrays::{LIGHT_ROWS, MATERIAL_ROWS, SOLID_ROWS, VIEW_ROWS};
+pub(crate) use arrays::{LIGHT_ROWS, MATERIAL_ROWS, VIEW_ROWS, solid_row_count};
 pub use balls::Area;
 pub use budget::{Bounds, Cuts};
 pub use precision::Precision;
 pub use reason::{Line, Reason};
-pub use rounding::{Cause, Near, Rounding};
+pub use rounding::{Cause, Near, Rounding, is_close_up, kernel_frame};
 pub use tiling::{tile_side, tried_under_boxes};
 pub use turns::{CPU_LOOP_TURNS, Crowd, MOST_PIXELS};
 
@@ -161,6 +161,9 @@ pub struct Plan {
     /// Generations of a ray, the primary one included. Where it is 1, nothing is reflected.
     pub generations: Decision<u32>,
     pub precision: Decision<Precision>,
+    /// How many times the smallest length the scene is, where the picture is drawn as a close-up: in `f32`, from where
+    /// solids are nearest to the camera.
+    pub close_up: Option<f64>,
     /// What rounding to `f32` does to the picture; `None` where the precision was asked for and that was not looked at.
     pub rounding: Option<Rounding>,
     /// Of each kind.
@@ -223,6 +226,7 @@ impl Plan {
             lights,
             shadows,
             highlights: cut_highlights(highlights, &spent),
+            close_up: rounding::close_up_ratio(scene, precision.choice),
             precision,
             rounding,
             structures: Structure::decide(counts),

@@ -4,7 +4,7 @@ use clap::ValueEnum;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use super::rounding::{self, Rounding};
+use super::rounding::{self, Rounding, is_close_up};
 use super::solids::{outside_by, size};
 use super::{Decision, Limits, PlanError, Reason, Wishes};
 use crate::scene::{Camera, Projection, Scene, Solid};
@@ -112,6 +112,10 @@ pub(super) fn brightest_source(scene: &Scene) -> f64 {
 ///
 /// A kernel errs between hit and miss where the clearance is below 8u·size (NUMERICS.md, H); the stored solid is off by
 /// u of its place, seen from the camera, and of its size; the ray's direction by less than 32u of the window's extent.
+///
+/// In a close-up the size's part is taken by the way from the solid's anchor. That is the point nearest to the camera, so
+/// that from a silhouette at a distance D it is at most 2D, and the place of the anchor at most D; of a cone the anchor is
+/// the apex.
 pub(super) fn silhouette_shift_pixels(scene: &Scene, wishes: &Wishes, precision: Precision) -> f64 {
     let u = precision.unit_roundoff();
     let Camera { position, vertical_fov_degrees, projection, .. } = scene.camera;
@@ -125,8 +129,12 @@ pub(super) fn silhouette_shift_pixels(scene: &Scene, wishes: &Wishes, precision:
     let corner = (corner * half_width).hypot(corner * half_height);
     // A turn by dθ moves an image by dθ·(1 + r²), r being its distance from the axis in the plane at distance 1.
     let pixels_per_radian = (1.0 + corner * corner) * f64::from(wishes.height) / (window_height * half_height);
+    let is_close_up = is_close_up(scene, precision);
     let solid_shift = |solid: &Solid| {
-        let size = size(solid);
+        let size = match solid {
+            Solid::Sphere { .. } | Solid::Box { .. } | Solid::Cylinder { .. } if is_close_up => return 9.0 * 2.0 + 1.0,
+            _ => size(solid),
+        };
         let from_camera = (solid.position() - position).length();
         let distance = nearest_silhouette(solid, position);
         if distance > 0.0 { (9.0 * size + from_camera) / distance } else { 0.0 }

@@ -261,6 +261,7 @@ impl Plan {
             self.generations_line(),
         ]);
         lines.push(Line::new("precision", self.precision.choice.name(), &self.precision, None));
+        lines.extend(self.close_up_line());
         let [width, height] = self.workgroup.choice;
         lines.push(Line::new("workgroup", format!("{width}x{height}"), &self.workgroup, None));
         lines.push(Line::new("pixels in turn", self.pixels.choice, &self.pixels, None));
@@ -326,6 +327,18 @@ impl Plan {
             _ => None,
         };
         Line::new("generations", generations, &self.generations, saves.as_deref())
+    }
+
+    fn close_up_line(&self) -> Option<Line> {
+        self.close_up.map(|ratio| Line {
+            what: "close-up",
+            choice: "yes".to_owned(),
+            why: format!(
+                "lengths differ by {}: solids are told from where they are nearest to the camera",
+                Short(ratio)
+            ),
+            saves: None,
+        })
     }
 
     fn shadow_cut_line(&self) -> Option<Line> {

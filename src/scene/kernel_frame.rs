@@ -17,6 +17,8 @@ pub struct KernelFrame {
     pub scale: f64,
     /// Half of the largest coordinate of a solid or of a ray's origin, kernel lengths.
     pub reach: f32,
+    /// The origin is the camera, and solids are told from where they are nearest to it.
+    pub is_close_up: bool,
 }
 
 impl Default for KernelFrame {
@@ -28,12 +30,19 @@ impl Default for KernelFrame {
 impl KernelFrame {
     /// The world frame itself, where no coordinate is larger than twice `reach`.
     pub fn world(reach: f32) -> Self {
-        Self { origin: DVec3::ZERO, scale: 1.0, reach }
+        Self { origin: DVec3::ZERO, scale: 1.0, reach, is_close_up: false }
     }
 
     /// The frame of a scene: the same on every host and in every session, so that a picture's bits are, too.
     pub fn of(scene: &Scene) -> Self {
         Extent::of(&scene.primitives).frame(scene.camera.position)
+    }
+
+    /// The frame of a close-up of a scene: then what rounding loses goes by how far things are from the camera.
+    pub fn close_up(scene: &Scene) -> Self {
+        let origin = scene.camera.position;
+        let extent = Extent { origin, farthest: farthest_coordinate(&scene.primitives, origin) };
+        Self { is_close_up: true, ..extent.frame(origin) }
     }
 
     pub(crate) fn point(&self, world: DVec3) -> DVec3 {
@@ -100,7 +109,7 @@ impl Extent {
     pub fn frame(&self, camera: DVec3) -> KernelFrame {
         let farthest = self.farthest.max((camera - self.origin).abs().max_element());
         let scale = if farthest > 0.0 { 1.0 / power_of_two_below(farthest) } else { 1.0 };
-        KernelFrame { origin: self.origin, scale, reach: 1.0 }
+        KernelFrame { origin: self.origin, scale, reach: 1.0, is_close_up: false }
     }
 }
 

@@ -5,6 +5,7 @@
 
 mod bounding_sphere;
 mod camera;
+mod close_up;
 mod edit;
 mod error;
 mod file;
@@ -18,6 +19,7 @@ mod validate;
 
 pub use bounding_sphere::{BoundingSphere, farthest_coordinate};
 pub use camera::{Camera, Projection};
+pub(crate) use close_up::{BoxNearby, Curve, CylinderNearby, SphereNearby};
 pub use edit::{COURSE_PRIMITIVE_LIMIT, TooManyPrimitives, world_from_box};
 pub use error::SceneError;
 pub use kernel_frame::KernelFrame;

@@ -14,8 +14,8 @@ use super::whitted_pipeline::{WhittedPipeline, shader_of};
 use super::whitted_records::{SolidRecords, WhittedRecords};
 use super::{Kernel, TracerError, Work};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Texel, Use};
-use crate::plan::{Crowd, Precision};
-use crate::scene::{Extent, Primitive, Scene};
+use crate::plan::{self, Crowd, Precision};
+use crate::scene::{Extent, KernelFrame, Primitive, Scene};
 
 /// The kernel with the state that it began last.
 pub(super) struct LiveWhitted {
@@ -96,7 +96,9 @@ impl LiveWhitted {
         let same = self.begun.as_ref().filter(|begun| begun.primitives.list == scene.primitives);
         let primitives =
             same.map_or_else(|| Arc::new(Primitives::of(&scene.primitives)), |begun| begun.primitives.clone());
-        let frame = primitives.extent.frame(scene.camera.position);
+        let is_close_up = self.kernel == Kernel::Whitted(precision) && plan::is_close_up(scene, precision);
+        let frame =
+            if is_close_up { KernelFrame::close_up(scene) } else { primitives.extent.frame(scene.camera.position) };
         let last = self.begun.as_ref().map(|begun| &begun.records.solids).filter(|solids| solids.frame == frame);
         let solids = match last {
             Some(solids) if same.is_some() => solids.clone(),

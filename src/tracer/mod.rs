@@ -37,7 +37,7 @@ pub use records::{
 pub use crate::plan::Precision;
 pub use requirements::Requirements;
 pub use settings::{Kernel, Settings, Work};
-pub use whitted::{check_precision, scene_bindings, upload_scene};
+pub use whitted::{check_precision, kernel_frame, scene_bindings, upload_scene};
 pub use whitted_records::{SolidRecords, WhittedFrame, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};

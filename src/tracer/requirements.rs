@@ -14,6 +14,8 @@ pub struct Requirements {
     /// Of boxes over the solids of each kind.
     pub levels: [u32; 4],
     pub are_boxes_upright: bool,
+    /// The records are those of a close-up.
+    pub is_close_up: bool,
     pub highlights: bool,
     /// Whose balls primary rays may see: none, one, or several (2).
     pub balls: u32,
@@ -35,6 +37,7 @@ impl Requirements {
             kinds: records.solids.counts.map(|count| count > 0),
             levels: records.solids.levels,
             are_boxes_upright: records.solids.are_boxes_upright,
+            is_close_up: records.solids.frame.is_close_up,
             highlights: cuts.highlights && has_lights,
             balls: lights(cuts.balls),
             lights: lights(cuts.lights),
@@ -54,7 +57,7 @@ impl Requirements {
         device: &Arc<Device>,
         precision: Precision,
         [width, height]: [u32; 2],
-    ) -> Result<[u32; 20], GpuError> {
+    ) -> Result<[u32; 21], GpuError> {
         let float_width = match precision {
             Precision::F32 => FloatWidth::F32,
             Precision::F64 => FloatWidth::F64,
@@ -84,6 +87,7 @@ impl Requirements {
             balls,
             u32::from(samples),
             pixels,
+            u32::from(self.is_close_up),
         ])
     }
 }

@@ -9,7 +9,7 @@ use super::sampling::Sampling;
 use super::whitted_records::{WhittedFrame, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingKind, Buffer, BufferKind, Device, GpuError, Resource, Texel};
-use crate::plan::{Area, Cuts, MOST_PIXELS, Precision};
+use crate::plan::{self, Area, Cuts, MOST_PIXELS, Precision};
 use crate::scene::{KernelFrame, Scene};
 
 impl Precision {
@@ -54,6 +54,15 @@ pub fn scene_bindings(precision: Precision) -> [BindingKind; 7] {
     let mut bindings = [BindingKind::Texels(precision.texel()); 7];
     bindings[1] = BindingKind::Texels(Texel::Floats);
     bindings
+}
+
+/// The frame that a kernel calculates a scene's picture in. The plain one knows no close-ups, which the textbook does not
+/// know.
+pub fn kernel_frame(scene: &Scene, kernel: Kernel) -> KernelFrame {
+    match kernel {
+        Kernel::Whitted(precision) => plan::kernel_frame(scene, precision),
+        Kernel::Plain | Kernel::Course => KernelFrame::of(scene),
+    }
 }
 
 /// Refuses a precision that the device does not have.
@@ -179,7 +188,7 @@ impl WhittedScene {
         size: [u32; 2],
     ) -> Result<Self, TracerError> {
         check_precision(device, kernel.precision())?;
-        let records = WhittedRecords::of(scene, KernelFrame::of(scene), kernel.precision(), size);
+        let records = WhittedRecords::of(scene, kernel_frame(scene, kernel), kernel.precision(), size);
         Self::with(device, scene, records, kernel, cuts, max_depth, size)
     }
 

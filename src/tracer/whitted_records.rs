@@ -13,9 +13,10 @@ use rayon::prelude::*;
 use super::hierarchy::{self, Bounds, GROUP, Level};
 use super::outlines::{bounds, is_turned, level_rows, nothing, outline};
 use super::sampling::sample_place;
-use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, SOLID_ROWS, VIEW_ROWS};
+use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, VIEW_ROWS, solid_row_count};
 use crate::scene::{
-    BoundingSphere, Camera, KernelFrame, Light, Primitive, Projection, Scene, Solid, SolidKind, two_sum, world_from_box,
+    BoundingSphere, BoxNearby, Camera, CylinderNearby, KernelFrame, Light, Primitive, Projection, Scene, Solid,
+    SolidKind, SphereNearby, two_sum, world_from_box,
 };
 
 /// What the kernel's buffers hold.
@@ -158,7 +159,7 @@ impl SolidRecords {
             [row(material.color, material.ambient), second]
         }));
         // Slots of nothing make the group whole.
-        rows.extend(vec![[0.0; 4]; missing * SOLID_ROWS[kind as usize]]);
+        rows.extend(vec![[0.0; 4]; missing * solid_row_count(kind, frame.is_close_up)]);
         self.materials.extend(vec![[0.0; 4]; missing * MATERIAL_ROWS]);
         self.orders[kind as usize] = order;
     }
@@ -198,19 +199,31 @@ pub(super) fn row(vector: DVec3, fourth: f64) -> [f64; 4] {
 fn solid_rows(solid: &Solid, frame: KernelFrame, precision: Precision) -> Vec<[f64; 4]> {
     let scale = frame.scale;
     match *solid {
+        Solid::Sphere { center, radius } if frame.is_close_up => {
+            let SphereNearby { anchor, curve } = SphereNearby::of(frame.point(center), radius * scale);
+            let (slope, slope_error) = precision.split((curve.slope, DVec3::ZERO));
+            vec![row(anchor, radius * scale), row(slope, curve.offset), row(slope_error, 0.0)]
+        }
         Solid::Sphere { center, radius } => vec![row(frame.point(center), radius * scale)],
         Solid::Box { center, half_size, rotation_degrees } => {
             let axes = world_from_box(rotation_degrees);
             let [x, y, z] = [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| precision.split((axis, DVec3::ZERO)));
             let half_size = half_size * scale;
+            let center = frame.point(center);
+            let (anchor, low, high) = if frame.is_close_up {
+                let BoxNearby { anchor, low, high } = BoxNearby::of(center, half_size, axes);
+                (anchor, low, high)
+            } else {
+                (center, DVec3::ZERO, half_size)
+            };
             vec![
-                row(frame.point(center), half_size.max_element()),
-                row(x.0, half_size.x),
-                row(y.0, half_size.y),
-                row(z.0, half_size.z),
-                row(x.1, 0.0),
-                row(y.1, 0.0),
-                row(z.1, 0.0),
+                row(anchor, half_size.max_element()),
+                row(x.0, high.x),
+                row(y.0, high.y),
+                row(z.0, high.z),
+                row(x.1, low.x),
+                row(y.1, low.y),
+                row(z.1, low.z),
             ]
         }
         Solid::Cylinder { ends: [a, b], radius } => {
@@ -220,6 +233,18 @@ fn solid_rows(solid: &Solid, frame: KernelFrame, precision: Precision) -> Vec<[f
             let half_length = half_axis.0.length();
             let (axis, axis_error) = precision.split(unit(half_axis));
             let radius = radius * scale;
+            if frame.is_close_up {
+                let nearby = CylinderNearby::of(half_a + half_b, unit(half_axis).0, radius, half_length);
+                let CylinderNearby { anchor, low, high, curve, reach } = nearby;
+                let (slope, slope_error) = precision.split((curve.slope, DVec3::ZERO));
+                return vec![
+                    row(anchor, radius),
+                    row(slope, high),
+                    row(axis, low),
+                    row(axis_error, reach),
+                    row(slope_error, curve.offset),
+                ];
+            }
             vec![
                 row(center, radius),
                 row(center_error, half_length),

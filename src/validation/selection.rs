@@ -3,8 +3,7 @@
 use serde::Serialize;
 
 use super::{Run, Scope};
-use crate::scene::KernelFrame;
-use crate::tracer::{Kernel, Requirements, Settings, WORKGROUP, WhittedRecords};
+use crate::tracer::{Kernel, Requirements, Settings, WORKGROUP, WhittedRecords, kernel_frame};
 
 /// Runs in a row that are drawn by one shader.
 pub(super) fn by_shader(runs: &[Run]) -> impl Iterator<Item = &[Run]> {
@@ -62,7 +61,7 @@ fn states(run: &Run) -> Option<[State; 16]> {
     if kernel == Kernel::Course {
         return None;
     }
-    let records = WhittedRecords::of(&run.scene, KernelFrame::of(&run.scene), kernel.precision(), [width, height]);
+    let records = WhittedRecords::of(&run.scene, kernel_frame(&run.scene, kernel), kernel.precision(), [width, height]);
     let max_depth = run.settings.max_depth.unwrap_or(run.scene.max_depth);
     // Whole, so that nothing new is forgotten here.
     let Requirements {
@@ -77,6 +76,7 @@ fn states(run: &Run) -> Option<[State; 16]> {
         // A scene does not tell how it is sampled, nor whether invocations come in packets.
         samples: _,
         pixels: _,
+        is_close_up: _,
     } = Requirements::of(&records, &cuts, max_depth);
     Some([
         ("spheres", spheres),

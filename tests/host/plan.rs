@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use crate::scenes::{cube, light, material, mirror, mixed_scene, primitive, scene_of_a_light, sphere};
 use glam::DVec3;
-use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, Wishes};
+use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, Wishes, kernel_frame};
 use zerkalo::reference::{self, LIGHT_BALL};
-use zerkalo::scene::{Camera, KernelFrame, Light, Material, Scene, Solid, SolidKind, gallery};
+use zerkalo::scene::{Camera, Light, Material, Scene, Solid, SolidKind, gallery};
 use zerkalo::tracer::WhittedRecords;
 
 const DEVICE: Limits = Limits { float64: true, max_array_bytes: 1 << 27, max_image_side: 16384, packets: true };
@@ -268,11 +268,14 @@ fn few_solids_are_tried_one_by_one_in_small_workgroups_and_tiles_fit_the_device(
 fn a_scene_fits_the_device_exactly_where_the_kernels_records_do() {
     let mut scene = gallery::scene("grid-sphere-100").unwrap();
     scene.primitives.extend(mixed_scene().primitives);
-    for kind in SolidKind::ALL {
-        scene.primitives.push(zerkalo::scene::Primitive::course_default(kind));
+    let planet = primitive(Solid::Sphere { center: DVec3::Y * -1e9, radius: 1e9 }, Material::default());
+    // The last scene, in f32, as a close-up.
+    let added = SolidKind::ALL.map(zerkalo::scene::Primitive::course_default).into_iter().chain([planet]);
+    for primitive in added {
+        scene.primitives.push(primitive);
         for precision in [Precision::F32, Precision::F64] {
             let row_bytes = if precision == Precision::F32 { 16 } else { 32 };
-            let records = WhittedRecords::of(&scene, KernelFrame::of(&scene), precision, [8, 8]);
+            let records = WhittedRecords::of(&scene, kernel_frame(&scene, precision), precision, [8, 8]);
             let outlines = records.solids.outlines.len() as u64 * 16;
             let own = records.buffers().map(|(_, rows)| rows.len() as u64 * row_bytes);
             let largest = own.into_iter().chain([outlines]).max().unwrap();

@@ -9,8 +9,8 @@ use crate::common::TestDevice;
 use crate::spirv_walk::{Kernel, Reached};
 use glam::DVec3;
 use zerkalo::gpu::{Shader, shaders};
-use zerkalo::plan::{Limits, Plan, Precision, Wishes};
-use zerkalo::scene::{KernelFrame, Light, Material, Scene, Solid, SolidKind, gallery};
+use zerkalo::plan::{Limits, Plan, Precision, Wishes, kernel_frame};
+use zerkalo::scene::{Light, Material, Scene, Solid, SolidKind, gallery};
 use zerkalo::tracer::{Requirements, WhittedRecords};
 
 const SIZE: (u32, u32) = (1621, 701);
@@ -67,7 +67,7 @@ fn reached(device: &TestDevice, kernel: &Kernel, scene: &Scene, precision: Preci
     let limits = Limits { float64: true, max_array_bytes: 1 << 27, ..Limits::PROMISED };
     let wishes = Wishes { precision: Some(precision), ..Wishes::exact(SIZE.0, SIZE.1) };
     let plan = Plan::for_scene(scene, &wishes, &limits).unwrap();
-    let records = WhittedRecords::of(scene, KernelFrame::of(scene), precision, [SIZE.0, SIZE.1]);
+    let records = WhittedRecords::of(scene, kernel_frame(scene, precision), precision, [SIZE.0, SIZE.1]);
     let requirements = Requirements::of(&records, &plan.cuts, plan.generations.choice);
     kernel.reached(&requirements.constants(device, precision, plan.workgroup.choice).unwrap())
 }

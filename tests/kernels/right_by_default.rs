@@ -194,7 +194,7 @@ fn judge_plans(seeds: std::ops::Range<u64>) {
     assert!(silent.is_empty(), "{silent:#?}");
     assert!(needless.len() * 20 <= right, "{needless:#?}");
     // Both kinds are there.
-    assert!(wrong * 20 >= right, "{wrong} of {right}");
+    assert!(wrong * 100 >= right, "{wrong} of {right}");
 }
 
 #[test]
@@ -232,6 +232,58 @@ fn reported_scenes_are_right_by_default() {
         seen.push(path);
     }
     assert_eq!(seen.len(), 7, "{seen:?}");
+}
+
+/// Something of a planet's size, a camera 2 above it, and a ball and a box of 1 on it.
+fn planet(ground: Solid, top: DVec3) -> Scene {
+    let matte = Material { color: DVec3::splat(0.8), ambient: 0.1, diffuse: 0.7, specular: 0.2 };
+    let ball = Solid::Sphere { center: top + DVec3::new(0.0, 1.0, 10.0), radius: 1.0 };
+    let center = top + DVec3::new(2.5, 0.5, 9.0);
+    let half_size = DVec3::splat(0.5);
+    let box_ = Solid::Box { center, half_size, rotation_degrees: DVec3::Y * 30.0 };
+    Scene {
+        camera: Camera {
+            position: top + DVec3::Y * 2.0,
+            direction: DVec3::new(0.0, -0.05, 1.0),
+            vertical_fov_degrees: 50.0,
+            ..Camera::default()
+        },
+        lights: vec![Light { position: top + DVec3::new(30.0, 40.0, -20.0), ..Light::default() }],
+        primitives: [ground, ball, box_].map(|solid| primitive(solid, matte.clone())).to_vec(),
+        ..Scene::default()
+    }
+}
+
+#[test]
+fn f32_is_right_on_grounds_of_any_size() {
+    let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
+    let [width, height] = SIZE;
+    for wide in [1e5, 6.371e6, 1e9] {
+        // The camera is above the middle of the ground, and far from it.
+        for top in [DVec3::ZERO, DVec3::new(0.3 * wide, 0.0, 0.1 * wide)] {
+            let (below, across) = (DVec3::NEG_Y * wide, DVec3::new(1.0, 0.2, 1.0) * wide);
+            let is_middle = top == DVec3::ZERO;
+            let mut grounds = vec![
+                Solid::Sphere { center: top + below, radius: wide },
+                Solid::Box { center: below * 0.2, half_size: across, rotation_degrees: DVec3::ZERO },
+                Solid::Box { center: below * 0.2, half_size: across, rotation_degrees: DVec3::Y * 30.0 },
+                Solid::Cylinder { ends: [DVec3::NEG_Y, DVec3::ZERO], radius: wide },
+                Solid::Cylinder { ends: [below, DVec3::ZERO], radius: wide },
+                Solid::Cylinder { ends: [top + below - DVec3::X * wide, top + below + DVec3::X * wide], radius: wide },
+            ];
+            if is_middle {
+                grounds.push(Solid::Cone { apex: top, axis: DVec3::NEG_Y, height: wide, half_angle_degrees: 80.0 });
+            }
+            for ground in grounds {
+                let scene = planet(ground.clone(), top);
+                let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &Limits::PROMISED).unwrap();
+                assert!(plan.close_up.is_some() && plan.warning().is_none(), "{ground:?}: {plan:?}");
+                let share = share_of_wrong(&mut tracers, &scene, Precision::F32);
+                assert!(share <= FEW_WRONG, "{ground:?} under {top}: {share} of the pixels are wrong");
+            }
+        }
+    }
 }
 
 /// Neighbours on one face lit by a light in its plane: the reference's picture has no speckle, nor have the kernels'.

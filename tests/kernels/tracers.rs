@@ -5,8 +5,8 @@ use std::ops::ControlFlow;
 use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::plan::{Crowd, MOST_PIXELS};
-use zerkalo::scene::{KernelFrame, Scene};
-use zerkalo::tracer::{Kernel, Requirements, Settings, Tracer, WhittedRecords};
+use zerkalo::scene::Scene;
+use zerkalo::tracer::{Kernel, Requirements, Settings, Tracer, WhittedRecords, kernel_frame};
 
 use crate::common::TestDevice;
 
@@ -31,7 +31,7 @@ impl Made {
     fn of(scene: &Scene, settings: &Settings) -> Self {
         let &Settings { kernel, width, height, workgroup, without_boxes, samples, pixels, .. } = settings;
         let depth = settings.max_depth.unwrap_or(scene.max_depth);
-        let records = WhittedRecords::of(scene, KernelFrame::of(scene), kernel.precision(), [width, height]);
+        let records = WhittedRecords::of(scene, kernel_frame(scene, kernel), kernel.precision(), [width, height]);
         let unknown = if without_boxes { 1 } else { MOST_PIXELS };
         let in_turn = || Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), depth, unknown);
         let requirements = Requirements {

@@ -137,6 +137,27 @@ const MILD_SHIFT_PIXELS: f64 = 0.25;
 /// nearer to each other than most.
 const MIRROR_GAIN: f64 = 5.0;
 
+/// Solids of a scene that close-ups are made of, at most: they are told anew for each place of the camera.
+const MOST_SOLIDS_NEARBY: usize = 4096;
+
+/// How many times the smallest length the scene is, where the kernel draws it as a close-up for that: where `f32` would
+/// else lose the small in the large.
+pub(super) fn close_up_ratio(scene: &Scene, precision: Precision) -> Option<f64> {
+    let is_short = (1..=MOST_SOLIDS_NEARBY).contains(&scene.primitives.len());
+    let ratio = || Some(ratio_of_lengths(scene)).filter(|&ratio| ratio > MILD_RATIO);
+    if precision == Precision::F32 && is_short { ratio() } else { None }
+}
+
+/// Whether the kernel draws a scene as a close-up.
+pub fn is_close_up(scene: &Scene, precision: Precision) -> bool {
+    close_up_ratio(scene, precision).is_some()
+}
+
+/// The frame that the accurate kernel calculates a scene's picture in.
+pub fn kernel_frame(scene: &Scene, precision: Precision) -> KernelFrame {
+    if is_close_up(scene, precision) { KernelFrame::close_up(scene) } else { KernelFrame::of(scene) }
+}
+
 /// For a picture of so many pixels in `depth` generations, silhouettes of which that are seen directly move by no more than
 /// `shift_pixels`.
 pub fn of_f32(scene: &Scene, depth: u32, size: [u32; 2], shift_pixels: f64) -> Rounding {
@@ -203,7 +224,7 @@ fn gain_of_mirrors(scene: &Scene, depth: u32) -> f64 {
 }
 
 fn try_pixels(scene: &Scene, size: [u32; 2], count: usize, doubt: Doubt) -> Rounding {
-    let frame = KernelFrame::of(scene);
+    let frame = kernel_frame(scene, Precision::F32);
     let (exact, rounded) = (World::new(scene), F32World::new(scene, &frame));
     let rays = PrimaryRays::new(&scene.camera, size[0], size[1]);
     let pixels = pixels(size, count.min(MOST_TRIED));

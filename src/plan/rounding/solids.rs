@@ -4,15 +4,92 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::line::{AxisLine, Face, Interval, Line, Ray, ordered_roots};
 use crate::plan::{Precision, solids};
-use crate::scene::{KernelFrame, Solid, world_from_box};
+use crate::scene::{BoxNearby, Curve, CylinderNearby, KernelFrame, Solid, SphereNearby, world_from_box};
 
 /// Kernel frame. What the kernel has as a value and its error is `f64`.
 #[derive(Debug, Clone)]
 pub enum F32Solid {
-    Sphere { center: Vec3, radius: f32 },
-    Box { center: Vec3, half_size: Vec3, axes: DMat3 },
-    Cylinder { center: DVec3, axis: DVec3, radius: f32, half_length: f32 },
-    Cone { apex: Vec3, axis: DVec3, height: f32, base_radius: f32, sine: f32, cosine: f32 },
+    Sphere {
+        center: Vec3,
+        radius: f32,
+    },
+    SphereNearby {
+        anchor: Vec3,
+        radius: f32,
+        curve: F32Curve,
+    },
+    /// `center`: in a close-up the anchor.
+    Box {
+        center: Vec3,
+        low: Vec3,
+        high: Vec3,
+        axes: DMat3,
+        is_close_up: bool,
+    },
+    Cylinder {
+        center: DVec3,
+        axis: DVec3,
+        radius: f32,
+        half_length: f32,
+    },
+    CylinderNearby {
+        anchor: Vec3,
+        axis: DVec3,
+        radius: f32,
+        low: f32,
+        high: f32,
+        reach: f32,
+        curve: F32Curve,
+    },
+    Cone {
+        apex: Vec3,
+        axis: DVec3,
+        height: f32,
+        base_radius: f32,
+        sine: f32,
+        cosine: f32,
+        is_close_up: bool,
+    },
+}
+
+/// A round surface of a close-up.
+#[derive(Debug, Clone, Copy)]
+pub struct F32Curve {
+    slope: DVec3,
+    offset: f32,
+}
+
+impl F32Curve {
+    fn of(curve: Curve) -> Self {
+        Self { slope: curve.slope, offset: curve.offset as f32 }
+    }
+
+    /// From `x`, seen from the anchor: about the height over the surface, where that is small.
+    fn height(self, x: DVec3, radius: f32) -> f32 {
+        let rounded = x.as_vec3();
+        self.slope.dot(x) as f32 + (self.offset + rounded.dot(rounded) / (2.0 * radius))
+    }
+
+    fn depth(self, x: Vec3, radius: f32) -> f32 {
+        let from_center = radius * self.slope.as_vec3() + x;
+        -2.0 * radius * self.height(x.as_dvec3(), radius) / (radius + from_center.length())
+    }
+
+    /// Where the line x + s·direction is inside.
+    fn interval(self, x: DVec3, direction: Vec3, radius: f32) -> Interval {
+        let a = direction.dot(direction) / (2.0 * radius);
+        let b = 0.5 * (self.slope.dot(direction.as_dvec3()) as f32 + x.as_vec3().dot(direction) / radius);
+        let c = self.height(x, radius);
+        if a == 0.0 {
+            return if c <= 0.0 { Interval::WHOLE_LINE } else { Interval::EMPTY };
+        }
+        let discriminant = b * b - a * c;
+        if discriminant < 0.0 {
+            return Interval::EMPTY;
+        }
+        let (low, high) = ordered_roots(a, b, c, 0.0, discriminant.sqrt());
+        Interval::curved(low, high)
+    }
 }
 
 /// What a ray's origin is to a solid.
@@ -60,23 +137,36 @@ impl F32Solid {
         let scale = frame.scale;
         let length = |length: f64| (length * scale) as f32;
         match *solid {
+            Solid::Sphere { center, radius } if frame.is_close_up => {
+                let SphereNearby { anchor, curve } = SphereNearby::of(frame.point(center), radius * scale);
+                Self::SphereNearby { anchor: anchor.as_vec3(), radius: length(radius), curve: F32Curve::of(curve) }
+            }
             Solid::Sphere { center, radius } => {
                 Self::Sphere { center: frame.point(center).as_vec3(), radius: length(radius) }
             }
-            Solid::Box { center, half_size, rotation_degrees } => Self::Box {
-                center: frame.point(center).as_vec3(),
-                half_size: (half_size * scale).as_vec3(),
-                axes: world_from_box(rotation_degrees),
-            },
+            Solid::Box { center, half_size, rotation_degrees } => {
+                let (center, half_size) = (frame.point(center), half_size * scale);
+                let (axes, is_close_up) = (world_from_box(rotation_degrees), frame.is_close_up);
+                let BoxNearby { anchor, low, high } = if is_close_up {
+                    BoxNearby::of(center, half_size, axes)
+                } else {
+                    BoxNearby { anchor: center, low: -half_size, high: half_size }
+                };
+                let (center, low, high) = (anchor.as_vec3(), low.as_vec3(), high.as_vec3());
+                Self::Box { center, low, high, axes, is_close_up }
+            }
             Solid::Cylinder { ends: [a, b], radius } => {
                 let (half_a, half_b) = (frame.point(a) * 0.5, frame.point(b) * 0.5);
                 let half_axis = half_b - half_a;
-                Self::Cylinder {
-                    center: half_a + half_b,
-                    axis: solids::unit(half_axis),
-                    radius: length(radius),
-                    half_length: half_axis.length() as f32,
+                let (center, axis, half_length) = (half_a + half_b, solids::unit(half_axis), half_axis.length());
+                if !frame.is_close_up {
+                    return Self::Cylinder { center, axis, radius: length(radius), half_length: half_length as f32 };
                 }
+                let CylinderNearby { anchor, low, high, curve, reach } =
+                    CylinderNearby::of(center, axis, radius * scale, half_length);
+                let (anchor, curve) = (anchor.as_vec3(), F32Curve::of(curve));
+                let [low, high, reach] = [low, high, reach].map(|length| length as f32);
+                Self::CylinderNearby { anchor, axis, radius: length(radius), low, high, reach, curve }
             }
             Solid::Cone { apex, axis, height, half_angle_degrees } => {
                 let (sine, cosine) = half_angle_degrees.to_radians().sin_cos();
@@ -87,6 +177,7 @@ impl F32Solid {
                     base_radius: length(height * sine / cosine),
                     sine: sine as f32,
                     cosine: cosine as f32,
+                    is_close_up: frame.is_close_up,
                 }
             }
         }
@@ -94,16 +185,22 @@ impl F32Solid {
 
     pub fn size(&self) -> f32 {
         match *self {
-            Self::Sphere { radius, .. } => radius,
-            Self::Box { half_size, .. } => half_size.max_element(),
+            Self::Sphere { radius, .. } | Self::SphereNearby { radius, .. } => radius,
+            Self::Box { high, .. } => high.max_element(),
             Self::Cylinder { radius, half_length, .. } => radius.max(half_length),
+            Self::CylinderNearby { radius, low, high, .. } => radius.max(high - low),
             Self::Cone { height, base_radius, .. } => height.max(base_radius),
         }
     }
 
     fn meet_line(&self, ray: &Ray) -> Met {
         match *self {
-            Self::Sphere { center, .. } | Self::Box { center, .. } => Met::Plain(Line::about(ray, center.as_dvec3())),
+            Self::Sphere { center: anchor, .. }
+            | Self::SphereNearby { anchor, .. }
+            | Self::Box { center: anchor, .. } => Met::Plain(Line::about(ray, anchor.as_dvec3())),
+            Self::CylinderNearby { anchor, axis, reach, .. } => {
+                Met::AboutAxis(AxisLine::about(Line::about(ray, anchor.as_dvec3()), axis, reach))
+            }
             Self::Cylinder { center, axis, radius, half_length } => {
                 Met::AboutAxis(AxisLine::about(Line::about(ray, center), axis, radius.hypot(half_length)))
             }
@@ -118,20 +215,18 @@ impl F32Solid {
         let at = self.meet_line(ray);
         let interval = self.interval(&at);
         let (is_met, line) = (interval.is_met(), at.line());
-        let size = self.size();
         let place = if origin == Origin::Free { 0.0 } else { ray.origin.abs().max_element() as f32 };
-        let position_error = SURFACE_ERROR * (place + size);
         let is_own = matches!(origin, Origin::OwnInside(_));
-        let inside = is_own || self.depth(line.origin) >= -position_error;
+        let inside = is_own || self.depth(line.origin, place, 1.0) >= 0.0;
         let mut s = if inside { interval.far } else { interval.near };
         let mut t = line.t_at(s);
         let mut face = if inside { interval.far_face } else { interval.near_face };
         let mut is_ahead = is_met && t > 0.0;
         if inside && !is_own {
-            let least_depth = if origin == Origin::Free { 0.25 * position_error } else { position_error };
+            let errors = if origin == Origin::Free { -0.25 } else { -1.0 };
             let start = interval.near.max(-line.start());
             let middle = line.closest.as_vec3() + (0.5 * (start + interval.far)) * line.direction;
-            is_ahead = is_ahead && self.depth(middle) > least_depth;
+            is_ahead = is_ahead && self.depth(middle, place, errors) > 0.0;
         }
         let leaves_here = is_own && !is_ahead;
         if leaves_here {
@@ -148,7 +243,8 @@ impl F32Solid {
         }
         let (point, normal) = self.surface(&at, s, face);
         let point = if leaves_here { ray.origin.as_vec3() } else { point };
-        Some(F32Hit { t, point, normal: if inside { -normal } else { normal }, size, face, inside })
+        let normal = if inside { -normal } else { normal };
+        Some(F32Hit { t, point, normal, size: self.size_at(point), face, inside })
     }
 
     fn interval(&self, at: &Met) -> Interval {
@@ -163,35 +259,24 @@ impl F32Solid {
                 let s = (half_chord_squared / line.direction_squared).sqrt();
                 Interval::curved(-s, s)
             }
-            (&Self::Box { half_size, axes, .. }, Met::Plain(line)) => {
+            (&Self::SphereNearby { radius, curve, .. }, Met::Plain(line)) => {
+                curve.interval(line.closest, line.direction, radius)
+            }
+            (&Self::Box { low, high, axes, .. }, Met::Plain(line)) => {
                 let slab = |axis: usize| {
                     let across = axes.col(axis);
                     let offset = across.dot(line.closest) as f32;
                     let slope = across.dot(line.direction.as_dvec3()) as f32;
                     let face = |positive| Face::Slab { axis, positive };
-                    let half = half_size[axis];
-                    Interval::between_planes(offset, slope, (-half, face(false)), (half, face(true)))
+                    Interval::between_planes(offset, slope, (low[axis], face(false)), (high[axis], face(true)))
                 };
                 slab(0).intersection(slab(1)).intersection(slab(2))
             }
             (&Self::Cylinder { axis, radius, half_length, .. }, Met::AboutAxis(at)) => {
-                let end = |positive| Face::End { positive };
-                let slab = Interval::between_planes(
-                    at.along,
-                    at.along_slope,
-                    (-half_length, end(false)),
-                    (half_length, end(true)),
-                );
-                let mut inside = body(at, radius).intersection(slab);
-                let to_base = |face: Face, s: f32| match face {
-                    Face::End { positive } => {
-                        at.nearer_to_plane(axis, if positive { half_length } else { -half_length }, s)
-                    }
-                    _ => s,
-                };
-                inside.near = to_base(inside.near_face, inside.near);
-                inside.far = to_base(inside.far_face, inside.far);
-                inside
+                between_ends(body(at, radius), at, axis, [-half_length, half_length])
+            }
+            (&Self::CylinderNearby { axis, radius, low, high, curve, .. }, Met::AboutAxis(at)) => {
+                between_ends(curve.interval(at.offset.as_dvec3(), at.slope, radius), at, axis, [low, high])
             }
             (&Self::Cone { axis, height, sine, cosine, .. }, Met::AboutAxis(at)) => {
                 let slab =
@@ -215,24 +300,56 @@ impl F32Solid {
         }
     }
 
-    /// Distance from a point inside to the surface; negative outside.
-    fn depth(&self, from_anchor: Vec3) -> f32 {
+    /// Distance from a point inside to the surface, negative outside, and so many times what the point's place may be off:
+    /// in a close-up by what it may be across each face.
+    fn depth(&self, from_anchor: Vec3, place: f32, errors: f32) -> f32 {
+        let error = errors * SURFACE_ERROR;
+        let simply = error * (place + self.size());
+        let nearby = from_anchor.abs().max_element();
         match *self {
-            Self::Sphere { radius, .. } => radius - from_anchor.length(),
-            Self::Box { half_size, axes, .. } => {
-                let in_axes = Vec3::from_array(
-                    [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| axis.as_vec3().dot(from_anchor)),
-                );
-                (half_size - in_axes.abs()).min_element()
+            Self::Sphere { radius, .. } => radius - from_anchor.length() + simply,
+            Self::SphereNearby { radius, curve, .. } => {
+                curve.depth(from_anchor, radius) + error * (place + (nearby + curve.offset.abs()))
+            }
+            Self::Box { low, high, axes, is_close_up, .. } => {
+                let axes = [axes.x_axis, axes.y_axis, axes.z_axis].map(|axis| axis.as_vec3());
+                let in_axes = Vec3::from_array(axes.map(|axis| axis.dot(from_anchor)));
+                if !is_close_up {
+                    return (high - in_axes.abs()).min_element() + simply;
+                }
+                let across = Vec3::from_array(axes.map(|axis| axis.abs().dot(from_anchor.abs()))) + place;
+                let above_low = in_axes - low + error * (across + low.abs());
+                let below_high = high - in_axes + error * (across + high.abs());
+                above_low.min(below_high).min_element()
             }
             Self::Cylinder { axis, radius, half_length, .. } => {
-                let (along, distance) = along_and_across(from_anchor, axis);
-                (radius - distance).min(half_length - along.abs())
+                let (along, radial) = along_and_across(from_anchor, axis);
+                (radius - radial.length()).min(half_length - along.abs()) + simply
             }
-            Self::Cone { axis, height, sine, cosine, .. } => {
-                let (along, distance) = along_and_across(from_anchor, axis);
-                (along * sine - distance * cosine).min(along.min(height - along))
+            Self::CylinderNearby { axis, radius, low, high, curve, .. } => {
+                let (along, radial) = along_and_across(from_anchor, axis);
+                let across = place + axis.as_vec3().abs().dot(from_anchor.abs());
+                let above_low = along - low + error * (across + low.abs());
+                let below_high = high - along + error * (across + high.abs());
+                let body_error = error * (place + (radial.abs().max_element() + curve.offset.abs()));
+                (curve.depth(radial, radius) + body_error).min(above_low.min(below_high))
             }
+            Self::Cone { axis, height, sine, cosine, is_close_up, .. } => {
+                let (along, radial) = along_and_across(from_anchor, axis);
+                let depth = (along * sine - radial.length() * cosine).min(along.min(height - along));
+                depth + if is_close_up { error * (place + nearby) } else { simply }
+            }
+        }
+    }
+
+    /// What the rounding of a hit goes by: the solid's size, in a close-up the way from the anchor.
+    fn size_at(&self, point: Vec3) -> f32 {
+        match *self {
+            Self::SphereNearby { anchor, .. }
+            | Self::Box { center: anchor, is_close_up: true, .. }
+            | Self::CylinderNearby { anchor, .. }
+            | Self::Cone { apex: anchor, is_close_up: true, .. } => (point - anchor).abs().max_element(),
+            Self::Sphere { .. } | Self::Box { .. } | Self::Cylinder { .. } | Self::Cone { .. } => self.size(),
         }
     }
 
@@ -243,7 +360,12 @@ impl F32Solid {
                 let normal = unit(line.at(s));
                 (center + radius * normal, normal)
             }
-            (&Self::Box { center, half_size, axes }, Met::Plain(line)) => {
+            (&Self::SphereNearby { anchor, radius, curve }, Met::Plain(line)) => {
+                let from_anchor = line.at(s);
+                let normal = unit(curve.slope.as_vec3() + from_anchor / radius);
+                (anchor + (from_anchor + curve.depth(from_anchor, radius) * normal), normal)
+            }
+            (&Self::Box { center, low, high, axes, .. }, Met::Plain(line)) => {
                 let (axis, positive) = match face {
                     Face::Slab { axis, positive } => (axis, positive),
                     _ => (0, true),
@@ -251,7 +373,7 @@ impl F32Solid {
                 let across = axes.col(axis).as_vec3();
                 let normal = if positive { across } else { -across };
                 let from_center = line.at(s);
-                let above = half_size[axis] - normal.dot(from_center);
+                let above = if positive { high[axis] } else { -low[axis] } - normal.dot(from_center);
                 (center + (from_center + above * normal), normal)
             }
             (&Self::Cylinder { center, axis, radius, half_length }, Met::AboutAxis(at)) => {
@@ -272,6 +394,23 @@ impl F32Solid {
                 };
                 let from_center = along * rounded_axis + (radial + (along * axis_error + center_error));
                 (rounded_center + from_center, normal)
+            }
+            (&Self::CylinderNearby { anchor, axis, radius, low, high, curve, .. }, Met::AboutAxis(at)) => {
+                let rounded_axis = axis.as_vec3();
+                let axis_error = (axis - rounded_axis.as_dvec3()).as_vec3();
+                let (mut radial, mut along) = (at.radial_at(s), at.along_at(s));
+                let normal = match face {
+                    Face::End { positive } => {
+                        along = if positive { high } else { low };
+                        if positive { rounded_axis } else { -rounded_axis }
+                    }
+                    _ => {
+                        let normal = unit(curve.slope.as_vec3() + radial / radius);
+                        radial += curve.depth(radial, radius) * normal;
+                        normal
+                    }
+                };
+                (anchor + (along * rounded_axis + (radial + along * axis_error)), normal)
             }
             (&Self::Cone { apex, axis, height, sine, cosine, .. }, Met::AboutAxis(at)) => {
                 let rounded_axis = axis.as_vec3();
@@ -301,10 +440,24 @@ pub fn unit(vector: Vec3) -> Vec3 {
     vector / vector.length()
 }
 
-fn along_and_across(from_anchor: Vec3, axis: DVec3) -> (f32, f32) {
+fn along_and_across(from_anchor: Vec3, axis: DVec3) -> (f32, Vec3) {
     let axis = axis.as_vec3();
     let along = from_anchor.dot(axis);
-    (along, (from_anchor - along * axis).length())
+    (along, from_anchor - along * axis)
+}
+
+/// A cylinder's body cut by its ends, whose places along the axis are `low` and `high`.
+fn between_ends(body: Interval, at: &AxisLine, axis: DVec3, [low, high]: [f32; 2]) -> Interval {
+    let end = |positive| Face::End { positive };
+    let slab = Interval::between_planes(at.along, at.along_slope, (low, end(false)), (high, end(true)));
+    let mut inside = body.intersection(slab);
+    let to_base = |face: Face, s: f32| match face {
+        Face::End { positive } => at.nearer_to_plane(axis, if positive { high } else { low }, s),
+        _ => s,
+    };
+    inside.near = to_base(inside.near_face, inside.near);
+    inside.far = to_base(inside.far_face, inside.far);
+    inside
 }
 
 /// Of a cylinder, without its ends.
