@@ -98,6 +98,28 @@ fn rendered_by(tracers: &mut Tracers, kernel: Kernel, scene: &Scene, [width, hei
 }
 
 #[test]
+fn a_camera_may_fly_down_to_a_planet_and_up_again() {
+    let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
+    let size = [97, 61];
+    let mut easel = Easel::new(&device, size);
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/reports/planet.json");
+    let mut scene = Scene::load(std::path::Path::new(path)).unwrap();
+    let ground = scene.primitives[0].clone();
+    scene.primitives = vec![ground];
+    scene.lights[0].position.y *= 2.0;
+    easel.canvas.use_kernel(Kernel::Whitted(Precision::F32)).unwrap();
+    for (height, is_close_up) in [(1e7, false), (2.0, true), (3.0, true), (1e7, false)] {
+        scene.camera.position.y = 6.371e6 + height;
+        scene.camera.direction.y = if is_close_up { -0.05 } else { -2.0 };
+        assert_eq!(zerkalo::plan::is_close_up(&scene, Precision::F32), is_close_up);
+        let (frame, _) = easel.draw(&scene);
+        let expected = rendered_by(&mut tracers, Kernel::Whitted(Precision::F32), &scene, size);
+        assert!(frame == expected, "at {height}");
+    }
+}
+
+#[test]
 fn every_kernel_s_picture_is_the_tracer_s_bit_for_bit_and_follows_every_edit() {
     let device = TestDevice::open();
     let mut tracers = Tracers::new(&device);

@@ -92,9 +92,10 @@ fn an_impossible_error_is_told_what_is_allowed() {
 #[test]
 fn where_f32_is_too_coarse_f64_draws_and_f32_is_warned_of() {
     let place = Place::new();
-    let planet = format!("{REPORTS}/planet.json");
+    // What stands on the base of a cone, whose place is told from the apex, far below.
+    let base = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/wide_base.toml");
     let size = ["--size", "96x42"];
-    let render = |more: &[&str]| place.run(&[&["render", &planet, "-o", "a.png", "--json"], &size[..], more].concat());
+    let render = |more: &[&str]| place.run(&[&["render", base, "-o", "a.png", "--json"], &size[..], more].concat());
     let run = render(&[]);
     let report: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!((&report["precision"], &report["warning"]), (&"f64".into(), &serde_json::Value::Null), "{run:?}");
@@ -104,13 +105,20 @@ fn where_f32_is_too_coarse_f64_draws_and_f32_is_warned_of() {
     assert_eq!((run.code, &report["precision"]), (Some(0), &"f32".into()), "{run:?}");
     let warning = report["warning"].as_str().unwrap();
     assert_eq!(run.stderr, format!("warning: {warning}\n"));
-    assert!(warning.contains("primitive 1 is 6.4e6 wide: f32 moves its surface by 0.38"), "{warning}");
+    assert!(warning.contains("primitive 1 is 5.7e7 wide: f32 moves its surface by 3.4"), "{warning}");
 
-    let run = place.run(&["plan", &planet]);
+    let run = place.run(&["plan", base]);
     assert!(run.stdout.lines().any(|line| line.contains("precision") && line.contains("f64")), "{run:?}");
-    assert!(run.stdout.contains("primitive 1 is 6.4e6 wide"), "{run:?}");
-    let run = place.run(&["plan", &planet, "--no-device"]);
+    assert!(run.stdout.contains("primitive 1 is 5.7e7 wide"), "{run:?}");
+    let run = place.run(&["plan", base, "--no-device"]);
     assert!(run.stdout.contains("warning: f32 is too coarse for this scene"), "{run:?}");
-    let run = place.run(&["plan", "four"]);
-    assert!(run.stdout.lines().any(|line| line.contains("precision") && line.contains("f32")), "{run:?}");
+    let planet = format!("{REPORTS}/planet.json");
+    for (scene, is_close_up) in [("four", false), (&planet, true)] {
+        let run = place.run(&["plan", scene]);
+        let has = |what: &str, choice: &str| {
+            run.stdout.lines().any(|line| line.split_whitespace().take(2).eq([what, choice]))
+        };
+        assert!(has("precision", "f32") && has("close-up", "yes") == is_close_up, "{run:?}");
+        assert!(!run.stdout.contains("warning"), "{run:?}");
+    }
 }

@@ -178,13 +178,13 @@ fn a_screenshot_is_taken_while_picture_follows_picture() {
     window.close();
 }
 
-/// A camera on a planet: f32 has no shadows there.
+/// What stands on the base of a cone of 10⁷: f32 has no shadows there.
 #[test]
 fn where_f32_is_too_coarse_f64_draws_and_f32_is_warned_of() {
     let desk = Desk::new(Locale::English, [900, 700]);
-    let reports = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/reports");
-    std::fs::copy(format!("{reports}/planet.json"), desk.path("planet.json")).unwrap();
-    let mut window = desk.view(&["planet.json"]);
+    let base = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/scenes/wide_base.toml");
+    std::fs::copy(base, desk.path("base.toml")).unwrap();
+    let mut window = desk.view(&["base.toml"]);
     let now = window.wait_until("it is drawn", |now| now.is_whole);
     assert_eq!(now.kernel, "whitted f64");
     let warning = "The picture is wrong: f32 is too coarse for it";
@@ -197,7 +197,7 @@ fn where_f32_is_too_coarse_f64_draws_and_f32_is_warned_of() {
     window.close();
 
     std::fs::write(desk.path("f32.toml"), "kernel = \"whitted\"\nprecision = \"f32\"\n").unwrap();
-    let mut window = desk.view(&["planet.json", "--settings", "f32.toml"]);
+    let mut window = desk.view(&["base.toml", "--settings", "f32.toml"]);
     window.wait_until("as the file says, and warned of", |now| now.is_whole && now.says(warning));
     window.close();
 }
