@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, Throughput};
 use rayon::prelude::*;
-use zerkalo::scene::KernelFrame;
+use zerkalo::scene::SceneSpace;
 use zerkalo::tracer::hierarchy::{Bounds, levels, order};
 use zerkalo::tracer::{Precision, WhittedRecords, bounds};
 
@@ -10,7 +10,7 @@ pub fn benches(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("structure");
     for name in ["grid-cone-100", "squares-100000", "cloud-100000"] {
         let scene = crate::scene(name);
-        let frame = KernelFrame::of(&scene);
+        let frame = SceneSpace::of(&scene);
         let solids: Vec<Bounds> =
             scene.primitives.par_iter().map(|primitive| bounds(&primitive.solid, frame)).collect();
         let ordered: Vec<Bounds> = order(&solids).into_iter().map(|place| solids[place as usize]).collect();

@@ -2,7 +2,7 @@
 
 use criterion::{Criterion, Throughput};
 use zerkalo::gpu::{Device, Validation};
-use zerkalo::plan::kernel_frame;
+use zerkalo::plan::scene_space;
 use zerkalo::tracer::{Precision, WhittedRecords, upload_scene};
 
 /// Nothing where there is no device; `ZERKALO_DEVICE` chooses one.
@@ -16,7 +16,7 @@ pub fn benches(criterion: &mut Criterion) {
     for name in ["grid-cone-100", "cloud-100000"] {
         let scene = crate::scene(name);
         for precision in [Precision::F32, Precision::F64] {
-            let records = WhittedRecords::of(&scene, kernel_frame(&scene, precision), precision, [1621, 701]);
+            let records = WhittedRecords::of(&scene, scene_space(&scene, precision), precision, [1621, 701]);
             group.throughput(Throughput::Elements(scene.primitives.len() as u64));
             group.bench_function(format!("{name}, {}", precision.name()), |bencher| {
                 bencher.iter(|| upload_scene(&device, &records, precision).map(|resources| resources.len()))

@@ -7,28 +7,28 @@ layout(local_size_x = 64) in;
 
 #include "whitted/solids.glsl"
 
-// The key of a solid's outline, as if it were the only one.
-uint key_alone(uint slot, Beam beam) {
-    uvec4 first = first_slots(), rows = frame.outlines;
+// The key of a solid's proxy, as if it were the only one.
+uint key_alone(uint slot, TraversalRay traversal) {
+    uvec4 first = first_slots(), rows = frame.proxies;
     uvec4 row = rows + uvec4(1u, 2u, 2u, 2u) * (slot - first);
     if (HAS_CONES && slot >= first.w) {
-        vec4 a = texelFetch(outlines, int(row.w)), b = texelFetch(outlines, int(row.w + 1u));
-        return key_of_cone(a, b, beam, 0, 0u) | uint(misses_ball(ball_of_cone(a, b), beam));
+        vec4 a = texelFetch(proxies, int(row.w)), b = texelFetch(proxies, int(row.w + 1u));
+        return key_of_cone(a, b, traversal, 0, 0u) | uint(misses_sphere(bounding_sphere_of_cone(a, b), traversal));
     }
     if (HAS_CYLINDERS && slot >= first.z) {
-        vec4 a = texelFetch(outlines, int(row.z)), b = texelFetch(outlines, int(row.z + 1u));
-        return key_of_cylinder(a, b, beam, 0, 0u) | uint(misses_ball(ball_of_cylinder(a, b), beam));
+        vec4 a = texelFetch(proxies, int(row.z)), b = texelFetch(proxies, int(row.z + 1u));
+        return key_of_cylinder(a, b, traversal, 0, 0u) | uint(misses_sphere(bounding_sphere_of_cylinder(a, b), traversal));
     }
     if (HAS_BOXES && slot >= first.y)
-        return key_of_box(texelFetch(outlines, int(row.y)), texelFetch(outlines, int(row.y + 1u)), beam, 0, 0u);
-    return key_of_sphere(texelFetch(outlines, int(row.x)), vec4(0.0), beam, 0, 0u);
+        return key_of_box(texelFetch(proxies, int(row.y)), texelFetch(proxies, int(row.y + 1u)), traversal, 0, 0u);
+    return key_of_sphere(texelFetch(proxies, int(row.x)), vec4(0.0), traversal, 0, 0u);
 }
 
 struct ProbeRay {
     Real3 origin;
     Real slot;        // of the solid to try
     Real3 direction;  // unit
-    Real departure;   // of which primitive's surface the origin lies on: < 0 none, 0 this solid's, 1 another's
+    Real origin_surface;   // of which primitive's surface the origin lies on: < 0 none, 0 this solid's, 1 another's
     Real face;        // of that surface
     Real inside;      // 1 where the ray leaves it inwards
     Real unused_0;
@@ -54,19 +54,19 @@ void main() {
     if (index >= uint(rays.length())) return;
     ProbeRay probed = rays[index];
     uint slot = uint(probed.slot);
-    Departure departure = Departure(NOTHING, CURVED, false);
-    if (probed.departure >= 0.0) {
+    OriginSurface origin_surface = OriginSurface(NOTHING, CURVED, false);
+    if (probed.origin_surface >= 0.0) {
         // No slot is that large: another's.
-        uint left = probed.departure == 0.0 ? slot : NOTHING - 1u;
-        departure = Departure(left, uint(probed.face), probed.inside == 1.0);
+        uint left = probed.origin_surface == 0.0 ? slot : NOTHING - 1u;
+        origin_surface = OriginSurface(left, uint(probed.face), probed.inside == 1.0);
     }
     Ray ray = Ray(probed.origin, Real3(0.0), probed.direction);
     Hit hit;
-    bool is_met = meet(slot, ray, departure, hit);
-    bool is_own = departure.slot == slot;
-    // As in a search: what its outline says is missed, or met later, is not met.
-    uint key = key_alone(slot, beam_of(ray));
-    is_met = is_met && (is_own ? departure.inside : key < NO_KEY && key <= (floatBitsToUint(float(hit.t)) | 7u));
+    bool is_met = meet(slot, ray, origin_surface, hit);
+    bool is_own = origin_surface.slot == slot;
+    // As in a search: what its proxy says is missed, or met later, is not met.
+    uint key = key_alone(slot, traversal_ray_of(ray));
+    is_met = is_met && (is_own ? origin_surface.inside : key < NO_KEY && key <= (floatBitsToUint(float(hit.t)) | 7u));
 
     ProbeHit result;
     result.primitive = -1.0;

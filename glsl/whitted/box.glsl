@@ -11,7 +11,7 @@ BoxLine line_of(Box box, Ray ray) {
 // `k`: of the box's axes.
 Interval slab(Box box, Line line, Real3 axis, Real3 axis_error, uint k) {
     Real offset, slope;
-    if (ARE_BOXES_UPRIGHT) {
+    if (ARE_BOXES_AXIS_ALIGNED) {
         offset = line.closest.value[k];
         slope = line.direction[k];
     } else {
@@ -32,7 +32,7 @@ Interval interval(Box box, BoxLine at) {
 
 // From the box's centre, in its own axes.
 Real3 in_axes(Box box, Real3 from_center) {
-    if (ARE_BOXES_UPRIGHT) return from_center;
+    if (ARE_BOXES_AXIS_ALIGNED) return from_center;
     return Real3(dot(box.axis_x, from_center), dot(box.axis_y, from_center), dot(box.axis_z, from_center));
 }
 
@@ -45,7 +45,7 @@ Real depth(Box box, Real3 from_anchor) {
 // The same in a close-up, each face by so many times what the place of a point may be off across it.
 Real depth_with_errors(Box box, Real3 from_anchor, Real place, Real errors) {
     Real3 x = abs(from_anchor);
-    Real3 across = ARE_BOXES_UPRIGHT ? x : Real3(dot(abs(box.axis_x), x), dot(abs(box.axis_y), x), dot(abs(box.axis_z), x));
+    Real3 across = ARE_BOXES_AXIS_ALIGNED ? x : Real3(dot(abs(box.axis_x), x), dot(abs(box.axis_y), x), dot(abs(box.axis_z), x));
     Real3 at = in_axes(box, from_anchor);
     Real3 unit_errors = errors * SURFACE_ERROR * (Real3(place) + across);
     Real3 above_low = at - box.low + (unit_errors + errors * SURFACE_ERROR * abs(box.low));
@@ -58,7 +58,7 @@ Real size(Box box) { return box.size; }
 
 Real size_near(Box box, Real3 point) { return largest_component(point - box.center); }
 
-// Outward unit normal and point of a face, kernel frame.
+// Outward unit normal and point of a face, scene space.
 void surface(Box box, BoxLine at, Real s, uint face, out Real3 point, out Real3 normal) {
     uint axis = (face - SLAB) >> 1;
     bool positive = ((face - SLAB) & 1u) == 1u;

@@ -33,18 +33,18 @@ struct OwnBox {
     vec4 half_size;
 };
 
-OwnBox own_box(uint first) { return OwnBox(OWN_ROW(outlines, first, 2u), OWN_ROW(outlines, first + 1u, 2u)); }
+OwnBox own_box(uint first) { return OwnBox(OWN_ROW(proxies, first, 2u), OWN_ROW(proxies, first + 1u, 2u)); }
 
 // The axis along which the eight lie one behind the other that begin in row `first`.
-uint order_of_boxes(OwnBox own, uint first) { return uint(ROW_OF_EIGHT(own.half_size, outlines, first + 1u, 2u, 0u).w); }
+uint order_of_boxes(OwnBox own, uint first) { return uint(ROW_OF_EIGHT(own.half_size, proxies, first + 1u, 2u, 0u).w); }
 
-Entries enter_boxes(OwnBox own, uint first, Beam beam) {
-    vec3 steepness = abs(beam.inverse);
+Entries enter_boxes(OwnBox own, uint first, TraversalRay traversal) {
+    vec3 steepness = abs(traversal.inverse);
     Entries entries;
 #define ENTER_ONE(k)                                                                                   \
     {                                                                                                  \
-        vec3 at = (ROW_OF_EIGHT(own.middle, outlines, first, 2u, k).xyz - beam.origin) * beam.inverse; \
-        vec3 reach = ROW_OF_EIGHT(own.half_size, outlines, first + 1u, 2u, k).xyz * steepness;         \
+        vec3 at = (ROW_OF_EIGHT(own.middle, proxies, first, 2u, k).xyz - traversal.origin) * traversal.inverse; \
+        vec3 reach = ROW_OF_EIGHT(own.half_size, proxies, first + 1u, 2u, k).xyz * steepness;         \
         ivec3 enters = floatBitsToInt(at - reach), leaves = floatBitsToInt(at + reach);                \
         int near = max(max(enters.x, enters.y), max(enters.z, 0));                                     \
         entries.at[k] = near > min(min(leaves.x, leaves.y), leaves.z) ? NOT_MET : near;                \
@@ -60,8 +60,8 @@ uint padded(uint count) { return eighths(count) << 3; }
 
 // Where the boxes over a kind's solids begin.
 uint first_box_row(uint kind) {
-    uint outline_rows = kind == 0u ? 1u : 2u;
-    return frame.outlines[kind] + outline_rows * padded(frame.counts[kind]);
+    uint proxy_rows = kind == 0u ? 1u : 2u;
+    return frame.proxies[kind] + proxy_rows * padded(frame.counts[kind]);
 }
 
 // One level are up to sixteen boxes, two groups, and every search enters them all. Where there is no second, its place is

@@ -108,7 +108,7 @@ Real size(Cone cone) { return cone.size; }
 
 Real size_near(Cone cone, Real3 point) { return largest_component(point - cone.apex); }
 
-// Outward unit normal and point of a face, kernel frame. At the apex, where there is none, the normal is against the
+// Outward unit normal and point of a face, scene space. At the apex, where there is none, the normal is against the
 // axis.
 void surface(Cone cone, AxisLine at, Real s, uint face, out Real3 point, out Real3 normal) {
     Real3 radial = radial_at(at, s);

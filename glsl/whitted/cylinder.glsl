@@ -90,7 +90,7 @@ Real size(Cylinder cylinder) { return cylinder.size; }
 
 Real size_near(Cylinder cylinder, Real3 point) { return largest_component(point - cylinder.center); }
 
-// Outward unit normal and point of a face, kernel frame.
+// Outward unit normal and point of a face, scene space.
 void surface(Cylinder cylinder, AxisLine at, Real s, uint face, out Real3 point, out Real3 normal) {
     Real3 radial = radial_at(at, s);
     Real along = along_at(at, s);

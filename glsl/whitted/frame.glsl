@@ -1,24 +1,24 @@
-// The push constants; `WhittedFrame` of src/tracer/whitted_records.rs.
-struct WhittedFrame {
+// The push constants; `WhittedPushConstants` of src/tracer/whitted_records.rs.
+struct WhittedPushConstants {
     uvec4 counts;     // of spheres, boxes, cylinders, cones
-    uvec4 outlines;   // where their outlines begin, rows
+    uvec4 proxies;   // where their proxies begin, rows
     uint tile_origin; // pixels, x | y << 16
     uint image_size;  // pixels, width | height << 16
     uint depth;       // generations to trace
     uint light_count;
     float reach;      // half of the largest coordinate of a solid or of a ray's origin
     uint writes_remainder; // not 0: what the colour loses by rounding to float, instead of the colour
-    float least_weight;    // a path ends as soon as it weighs no more than that; below 1
-    float least_shadowed;  // of light that is no more than that, times the path's weight, half counts, in shadow or not
+    float min_throughput;    // a path ends as soon as it weighs no more than that; below 1
+    float min_shadowed;  // of light that is no more than that, times the path's weight, half counts, in shadow or not
     uvec2 sample_place;    // in the pixel, sub-pixels from its top left
     uint samples_before;   // of each pixel, that the picture is the mean of
     float sample_weight;   // of this one in the mean: 1 / (samples_before + 1)
     uint tile_size;        // pixels, width | height << 16
 };
-layout(push_constant, std430) uniform Push { WhittedFrame pushed; };
+layout(push_constant, std430) uniform Push { WhittedPushConstants pushed; };
 
 // Read once: within a loop a CPU driver would fetch a number for each invocation by itself, turn after turn.
-WhittedFrame frame = pushed;
+WhittedPushConstants frame = pushed;
 
 // Of each kind, which takes whole groups of eight.
 uvec4 first_slots() {

@@ -1,27 +1,27 @@
-// The search through the solids of a kind, included once for each: SEARCH is its name, KEY_OF and SETTLE what looks at an
-// outline of OUTLINE_ROWS rows, KIND the kind and LEVELS the number of levels over the solids. Where IS_DEAR, KEY_OF takes
-// so long that a packet first tries BALL_OF, a ball around the solid.
+// The search through the solids of a kind, included once for each: SEARCH is its name, KEY_OF and TIGHTEN what looks at a
+// proxy of PROXY_ROWS rows, KIND the kind and LEVELS the number of levels over the solids. Where IS_DEAR, KEY_OF takes
+// so long that a packet first tries BOUNDING_SPHERE_OF, a bounding sphere around the solid.
 //
 // The solids lie in such an order that each eight that begin with a multiple of eight are near each other, and so are
 // each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what is
 // in it. src/tracer/hierarchy.rs makes the order, and the boxes.
 
-#if IS_DEAR && OCTETS
-#define SOLIDS_AHEAD(own, beam, found) balls_ahead(BALL_OF(own.a, own.b), beam, found.limit > HIDDEN)
+#if IS_DEAR && PACKETS
+#define SOLIDS_AHEAD(own, traversal, found) bounding_spheres_ahead(BOUNDING_SPHERE_OF(own.a, own.b), traversal, found.limit > HIDDEN)
 #else
-#define SOLIDS_AHEAD(own, beam, found) 0xFFu
+#define SOLIDS_AHEAD(own, traversal, found) 0xFFu
 #endif
 
 // A group of the kind, and where the ray enters the box around it; `left`: which of its solids some ray may meet. A loop's
 // body may have come here for nothing, with none of them.
-void TRY_EIGHT(uint group, OwnOutline own, uint left, int entry, Beam beam, inout Found found) {
-#define A_OF_EIGHT(k) ROW_OF_EIGHT(own.a, outlines, own.first, OUTLINE_ROWS, k)
-#define B_OF_EIGHT(k) (OUTLINE_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own.b, outlines, own.first + 1u, OUTLINE_ROWS, k))
-#define TRY_ONE(k) take(KEY_OF(A_OF_EIGHT(k), B_OF_EIGHT(k), beam, entry, k), k, eight);
-    Group eight = group_of(first_slots()[KIND] / 8u + group, left != 0u, beam);
-#if IS_DEAR && OCTETS
+void TRY_EIGHT(uint group, OwnOutline own, uint left, int entry, TraversalRay traversal, inout Found found) {
+#define A_OF_EIGHT(k) ROW_OF_EIGHT(own.a, proxies, own.first, PROXY_ROWS, k)
+#define B_OF_EIGHT(k) (PROXY_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own.b, proxies, own.first + 1u, PROXY_ROWS, k))
+#define TRY_ONE(k) take(KEY_OF(A_OF_EIGHT(k), B_OF_EIGHT(k), traversal, entry, k), k, eight);
+    Group eight = group_of(first_slots()[KIND] / 8u + group, left != 0u, traversal);
+#if IS_DEAR && PACKETS
     for (;;) {
-        turns++;
+        iterations++;
         uint k = uint(findLSB(left)) & 7u;
         TRY_ONE(k)
         left &= left - 1u;
@@ -32,7 +32,7 @@ void TRY_EIGHT(uint group, OwnOutline own, uint left, int entry, Beam beam, inou
 #endif
     uint place = (eight.key + eight.first_key) & 7u;
     // Among few that takes longer than it saves.
-    if (LEVELS > 1u) SETTLE(A_OF_EIGHT(place), B_OF_EIGHT(place), eight.key < eight.end, beam, found);
+    if (LEVELS > 1u) TIGHTEN(A_OF_EIGHT(place), B_OF_EIGHT(place), eight.key < eight.end, traversal, found);
     take(eight, found);
 #undef A_OF_EIGHT
 #undef B_OF_EIGHT
@@ -40,9 +40,9 @@ void TRY_EIGHT(uint group, OwnOutline own, uint left, int entry, Beam beam, inou
 }
 
 // Up to sixteen groups from `first` on, a bit each, and where the ray enters the boxes around them.
-void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries high, Beam beam, inout Found found) {
+void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries high, TraversalRay traversal, inout Found found) {
     for (;;) {
-        turns++;
+        iterations++;
         uint place, solids;
         OwnOutline own;
         for (;;) {
@@ -50,10 +50,10 @@ void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries 
             place = uint(are_backwards ? findMSB(left) : findLSB(left));
             place = is_there ? place : 0u;
             left &= ~(1u << place);
-            own = own_outline(frame.outlines[KIND], first + place, OUTLINE_ROWS);
-            solids = is_there ? SOLIDS_AHEAD(own, beam, found) : 0u;
-#if IS_DEAR && OCTETS
-            turns++;
+            own = own_outline(frame.proxies[KIND], first + place, PROXY_ROWS);
+            solids = is_there ? SOLIDS_AHEAD(own, traversal, found) : 0u;
+#if IS_DEAR && PACKETS
+            iterations++;
             // Where no ray meets any of them, on to the next group at once.
             if (solids != 0u || left == 0u) break;
 #else
@@ -61,7 +61,7 @@ void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries 
 #endif
         }
         int entry = LEVELS == 1u && place >= 8u ? entry_of(high, place) : entry_of(low, place);
-        TRY_EIGHT(first + place, own, solids, LEVELS == 0u ? 0 : entry, beam, found);
+        TRY_EIGHT(first + place, own, solids, LEVELS == 0u ? 0 : entry, traversal, found);
         if (LEVELS > 0u) {
             uint ahead = boxes_ahead(low, end_of(found));
             if (LEVELS == 1u) ahead |= boxes_ahead(high, end_of(found)) << 8u;
@@ -74,15 +74,15 @@ void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries 
 // A level that is alone is entered whole. Down several, a ray or a packet of eight goes group by group: `left` keeps, from
 // bit 8 * (h - 2) on, which boxes of level h, in their order, are still to be gone into. Those of level 1 are gone into at
 // once. What a level holds backwards has its bit in `backwards`.
-void SEARCH(Beam beam, vec3 heading, bool is_searching, inout Found found) {
+void SEARCH(TraversalRay traversal, vec3 heading, bool is_searching, inout Found found) {
     uint count = frame.counts[KIND];
     if (!is_searching) found.limit = HIDDEN;
     if (LEVELS == 0u) {
         Entries none;
         uint first = 0u;
         for (;;) {
-            turns++;
-            TRY_GROUPS(first, (1u << min(eighths(count) - first, 16u)) - 1u, false, none, none, beam, found);
+            iterations++;
+            TRY_GROUPS(first, (1u << min(eighths(count) - first, 16u)) - 1u, false, none, none, traversal, found);
             first += 16u;
             if (first >= eighths(count)) break;
         }
@@ -96,11 +96,11 @@ void SEARCH(Beam beam, vec3 heading, bool is_searching, inout Found found) {
             own_low = own_box(first);
             own_high = own_box(second);
         }
-        Entries low = enter_boxes(own_low, first, beam), high = enter_boxes(own_high, second, beam);
+        Entries low = enter_boxes(own_low, first, traversal), high = enter_boxes(own_high, second, traversal);
         bool are_backwards = heading[order_of_boxes(own_low, first)] < 0.0;
         uint left = (1u << eighths(count)) - 1u;
         left &= bits_of_packet(boxes_ahead(low, end_of(found)) | boxes_ahead(high, end_of(found)) << 8u);
-        TRY_GROUPS(0u, left, are_backwards, low, high, beam, found);
+        TRY_GROUPS(0u, left, are_backwards, low, high, traversal, found);
     } else {
         // Where the boxes of each level begin.
         uint rows[7];
@@ -118,12 +118,12 @@ void SEARCH(Beam beam, vec3 heading, bool is_searching, inout Found found) {
         uint path = 0u; // the group of level 1 that was gone into last, or the first below the one of a higher level
 
         for (;;) {
-            turns++;
+            iterations++;
             uint leaves;
             bool are_leaves_backwards;
             Entries entries;
             for (;;) {
-                turns++;
+                iterations++;
                 bool is_low = LEVELS <= 4u || left.x != 0u;
                 uint bit = is_low ? uint(findLSB(left.x)) : 32u + uint(findLSB(left.y));
                 left = is_low ? uvec2(left.x & (left.x - 1u), left.y) : uvec2(0u, left.y & (left.y - 1u));
@@ -136,7 +136,7 @@ void SEARCH(Beam beam, vec3 heading, bool is_searching, inout Found found) {
                 [[unroll]] for (uint h = 2u; h <= 6u; h++) first = h <= LEVELS && level == h ? rows[h] : first;
                 first += 16u * group;
                 OwnBox own = own_box(first);
-                entries = enter_boxes(own, first, beam);
+                entries = enter_boxes(own, first, traversal);
                 leaves = bits_of_packet(boxes_ahead(entries, end_of(found)));
                 are_leaves_backwards = heading[order_of_boxes(own, first)] < 0.0;
                 uint met = are_leaves_backwards ? bitfieldReverse(leaves) >> 24 : leaves;
@@ -150,8 +150,8 @@ void SEARCH(Beam beam, vec3 heading, bool is_searching, inout Found found) {
                 if (leaves != 0u || (left.x | left.y) == 0u) break;
             }
 
-            TRY_GROUPS(8u * path, leaves, are_leaves_backwards, entries, entries, beam, found);
-            bool ends = (left.x | left.y) == 0u || turns >= LOOP_TURNS;
+            TRY_GROUPS(8u * path, leaves, are_leaves_backwards, entries, entries, traversal, found);
+            bool ends = (left.x | left.y) == 0u || iterations >= MAX_ITERATIONS;
             if (ends || !any_of_packet(found.limit > HIDDEN)) break;
         }
     }

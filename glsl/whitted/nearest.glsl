@@ -24,32 +24,32 @@
 #undef SOLID
 #undef SOLID_LINE
 
-uint origin_of(Departure departure, uint slot) {
-    if (departure.slot == NOTHING) return FREE;
-    return departure.slot == slot ? OWN_INSIDE : OTHER_SURFACE;
+uint origin_of(OriginSurface origin_surface, uint slot) {
+    if (origin_surface.slot == NOTHING) return FREE;
+    return origin_surface.slot == slot ? OWN_INSIDE : OTHER_SURFACE;
 }
 
 // Where the ray meets the solid of a slot, if it does.
-bool meet(uint slot, Ray ray, Departure departure, out Hit hit) {
-    uint origin = origin_of(departure, slot);
+bool meet(uint slot, Ray ray, OriginSurface origin_surface, out Hit hit) {
+    uint origin = origin_of(origin_surface, slot);
     uvec4 first = first_slots();
     bool is_met = false;
     // A kind alone needs not be told from others.
     if (HAS_SPHERES && (IS_ONLY_KIND || slot < first.y)) {
-        is_met = meet(sphere(slot), ray, origin, departure.face, hit);
+        is_met = meet(sphere(slot), ray, origin, origin_surface.face, hit);
     } else if (HAS_BOXES && (IS_ONLY_KIND || slot < first.z)) {
-        is_met = meet(box(slot - first.y), ray, origin, departure.face, hit);
+        is_met = meet(box(slot - first.y), ray, origin, origin_surface.face, hit);
     } else if (HAS_CYLINDERS && (IS_ONLY_KIND || slot < first.w)) {
-        is_met = meet(cylinder(slot - first.z), ray, origin, departure.face, hit);
+        is_met = meet(cylinder(slot - first.z), ray, origin, origin_surface.face, hit);
     } else if (HAS_CONES) {
-        is_met = meet(cone(slot - first.w), ray, origin, departure.face, hit);
+        is_met = meet(cone(slot - first.w), ray, origin, origin_surface.face, hit);
     }
     hit.slot = slot;
     return is_met;
 }
 
 // Whether two hits may lie in one plane, for all that their numbers tell. Each t is off by at most
-// (u * t + 4u * size) / |cosine| (NUMERICS.md, T); unit normals are off by 4u each.
+// (u * t + 4u * size) / |cosine| (docs/numerics.md, T); unit normals are off by 4u each.
 bool are_coplanar(Hit a, Hit b, Ray ray) {
     if (dot(a.normal, b.normal) < 1.0 - 16.0 * UNIT_ROUNDOFF) return false;
     Real error = UNIT_ROUNDOFF * (a.t + b.t + 4.0 * (a.size + b.size));

@@ -1,10 +1,10 @@
 // Eight rays searched together, where invocations can hand each other numbers at the price of one instruction: each
 // fetches one row of eight, and what any of the rays needs all of them look at. Elsewhere every ray is for itself.
 //
-// OCTETS: subgroups of eight invocations, all of them there. Whatever decides which way a loop goes must then be the
+// PACKETS: subgroups of eight invocations, all of them there. Whatever decides which way a loop goes must then be the
 // same for all eight.
 
-#if OCTETS
+#if PACKETS
 #extension GL_KHR_shader_subgroup_shuffle : require
 const bool IN_PACKETS = true;
 

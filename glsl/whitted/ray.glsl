@@ -16,7 +16,7 @@ const uint BASE = 9u;
 const uint NOTHING = 0xFFFFFFFFu;
 
 // What is known of a ray's origin.
-struct Departure {
+struct OriginSurface {
     uint slot;    // whose surface it lies on, or NOTHING
     uint face;
     bool inside;  // to which side it leaves
@@ -37,7 +37,7 @@ const uint FREE = 0u;          // a point as stored
 const uint OTHER_SURFACE = 1u; // a rounded point of another solid's surface, which this one may touch
 const uint OWN_INSIDE = 2u;    // a rounded point of this solid's surface, left inwards
 
-// A point computed to lie on a surface is this near to it, relative to |point| + size of the solid; NUMERICS.md,
+// A point computed to lie on a surface is this near to it, relative to |point| + size of the solid; docs/numerics.md,
 // "Leaving a surface".
 const Real SURFACE_ERROR = 8.0 * UNIT_ROUNDOFF;
 

@@ -1,7 +1,7 @@
 // The scene as it lies in memory: rows of four reals, so that the layout is the same for float and double.
 // src/tracer/whitted_records.rs writes them.
 //
-// Kernel frame: the world frame with its origin among the solids, times a power of two that brings the farthest coordinate
+// Scene space: the world frame with its origin among the solids, times a power of two that brings the farthest coordinate
 // of a solid, and of the camera, below 2. Within a kind the solids lie in the order of its hierarchy; the kinds lie behind each other, and
 // a primitive's place in that row is its slot.
 
@@ -19,7 +19,7 @@ struct Box {
     Real size;      // the largest half size
     Real3 half_size;      // in a close-up the upper faces', from the anchor
     Real3 low;            // the lower faces', from there
-    Real3 axis_x;   // + axis_x_error: unit, kernel frame
+    Real3 axis_x;   // + axis_x_error: unit, scene space
     Real3 axis_y;
     Real3 axis_z;
     Real3 axis_x_error;
@@ -64,12 +64,12 @@ struct Material {
 
 struct Light {
     Real3 position;
-    Real ball_radius;
+    Real sphere_radius;
     Real3 intensity;      // linear RGB
 };
 
 struct View {
-    Real3 left;           // unit vectors of the camera, kernel frame
+    Real3 left;           // unit vectors of the camera, scene space
     Real half_width;      // of the centred window in the plane at distance 1
     Real3 up;
     Real half_height;
@@ -86,7 +86,7 @@ layout(constant_id = 2) const bool HAS_BOXES = true;
 layout(constant_id = 3) const bool HAS_CYLINDERS = true;
 layout(constant_id = 4) const bool HAS_CONES = true;
 const bool IS_ONLY_KIND = int(HAS_SPHERES) + int(HAS_BOXES) + int(HAS_CYLINDERS) + int(HAS_CONES) == 1;
-layout(constant_id = 8) const bool ARE_BOXES_UPRIGHT = false;
+layout(constant_id = 8) const bool ARE_BOXES_AXIS_ALIGNED = false;
 layout(constant_id = 9) const uint SPHERE_LEVELS = 0u;
 layout(constant_id = 10) const uint BOX_LEVELS = 0u;
 layout(constant_id = 11) const uint CYLINDER_LEVELS = 0u;
@@ -100,18 +100,18 @@ layout(constant_id = 13) const bool HAS_HIGHLIGHTS = true;
 layout(constant_id = 14) const uint LIGHTS = 2u; // none, one, or several
 layout(constant_id = 15) const bool HAS_SHADOWS = true;
 layout(constant_id = 16) const bool HAS_REFLECTIONS = true;
-layout(constant_id = 17) const uint BALLS = 2u; // of lights, that primary rays may see: as many
+layout(constant_id = 17) const uint LIGHT_SPHERES = 2u; // of lights, that primary rays may see: as many
 
-// Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 turns of all of them together: there
+// Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 iterations of all of them together: there
 // the search ends before that, and says so.
-layout(constant_id = 7) const uint LOOP_TURNS = 0xFFFFFFFFu;
-uint turns = 0u;
+layout(constant_id = 7) const uint MAX_ITERATIONS = 0xFFFFFFFFu;
+uint iterations = 0u;
 
 // Rows come through texel buffers: a CPU driver fetches a row for eight invocations at once there, and goes from one to
 // the next to read a storage buffer.
 layout(binding = 1) uniform Rows view_and_lights;
 // What finds candidates, by kind; see hierarchy.glsl.
-layout(binding = 2) uniform samplerBuffer outlines;
+layout(binding = 2) uniform samplerBuffer proxies;
 layout(binding = 3) uniform Rows sphere_rows;
 layout(binding = 4) uniform Rows box_rows;
 layout(binding = 5) uniform Rows cylinder_rows;
@@ -159,12 +159,12 @@ Box box(uint index) {
     if (IS_CLOSE_UP) {
         for (uint k = 0u; k < 3u; k++) box.low[k] = ROW(box_rows, first + 4u + k).w;
     }
-    box.axis_x = ARE_BOXES_UPRIGHT ? Real3(1.0, 0.0, 0.0) : x.xyz;
-    box.axis_y = ARE_BOXES_UPRIGHT ? Real3(0.0, 1.0, 0.0) : y.xyz;
-    box.axis_z = ARE_BOXES_UPRIGHT ? Real3(0.0, 0.0, 1.0) : z.xyz;
-    box.axis_x_error = ARE_BOXES_UPRIGHT ? Real3(0.0) : ROW(box_rows, first + 4u).xyz;
-    box.axis_y_error = ARE_BOXES_UPRIGHT ? Real3(0.0) : ROW(box_rows, first + 5u).xyz;
-    box.axis_z_error = ARE_BOXES_UPRIGHT ? Real3(0.0) : ROW(box_rows, first + 6u).xyz;
+    box.axis_x = ARE_BOXES_AXIS_ALIGNED ? Real3(1.0, 0.0, 0.0) : x.xyz;
+    box.axis_y = ARE_BOXES_AXIS_ALIGNED ? Real3(0.0, 1.0, 0.0) : y.xyz;
+    box.axis_z = ARE_BOXES_AXIS_ALIGNED ? Real3(0.0, 0.0, 1.0) : z.xyz;
+    box.axis_x_error = ARE_BOXES_AXIS_ALIGNED ? Real3(0.0) : ROW(box_rows, first + 4u).xyz;
+    box.axis_y_error = ARE_BOXES_AXIS_ALIGNED ? Real3(0.0) : ROW(box_rows, first + 5u).xyz;
+    box.axis_z_error = ARE_BOXES_AXIS_ALIGNED ? Real3(0.0) : ROW(box_rows, first + 6u).xyz;
     return box;
 }
 

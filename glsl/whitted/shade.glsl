@@ -1,4 +1,4 @@
-// What a hit sends back along the ray: equation 1.19 of the course work without refraction (DESIGN.md).
+// What a hit sends back along the ray: equation 1.19 of the course work without refraction (docs/light-model.md).
 
 // Overflow stops at the largest number, so that no sum becomes infinite or, by inf - inf, NaN.
 Real3 limited(Real3 color) { return min(color, Real3(LARGEST)); }
@@ -31,7 +31,7 @@ bool is_above(Light light, Hit hit, Real height) {
 }
 
 // What of a light that nothing hides comes back along the ray, from a surface at this cosine to it.
-Real3 sent_back(Material material, Real3 normal, Real3 ray_direction, Real3 light_direction, Real cosine, Light light) {
+Real3 direct_radiance(Material material, Real3 normal, Real3 ray_direction, Real3 light_direction, Real cosine, Light light) {
     Real highlight = 0.0;
     if (HAS_HIGHLIGHTS) {
         Real3 mirrored_light = unit(mirrored(-light_direction, normal));

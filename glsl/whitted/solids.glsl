@@ -10,5 +10,5 @@
 #include "cylinder.glsl"
 #include "cone.glsl"
 #include "nearest.glsl"
-#include "beam.glsl"
-#include "outlines.glsl"
+#include "traversal.glsl"
+#include "proxies.glsl"

@@ -69,7 +69,7 @@ Real size(Sphere sphere) { return sphere.radius; }
 
 Real size_near(Sphere sphere, Real3 point) { return largest_component(point - sphere.center); }
 
-// Outward unit normal and point of a face, kernel frame.
+// Outward unit normal and point of a face, scene space.
 void surface(Sphere sphere, SphereLine at, Real s, uint face, out Real3 point, out Real3 normal) {
     if (IS_CLOSE_UP) {
         precise Real3 from_anchor = at.line.closest.value + (at.line.closest.error + s * at.line.direction);

@@ -16,12 +16,12 @@ struct Path {
     uint generation;
 };
 
-// A generation is over that brings `emitted`. Tells what the next ray is cast for.
-uint next_generation(Real3 emitted, bool is_hit, Real specular, inout Path path) {
-    path.color = limited(path.color + path.weight * emitted);
+// A generation is over that brings `local_radiance`. Tells what the next ray is cast for.
+uint next_bounce(Real3 local_radiance, bool is_hit, Real specular, inout Path path) {
+    path.color = limited(path.color + path.weight * local_radiance);
     path.weight *= specular;
     path.generation++;
-    bool goes_further = is_hit && path.weight > Real(frame.least_weight) && path.generation < frame.depth;
+    bool goes_further = is_hit && path.weight > Real(frame.min_throughput) && path.generation < frame.depth;
     return HAS_REFLECTIONS && goes_further ? REFLECTED : ENDED;
 }
 
@@ -36,19 +36,19 @@ void trace(View view) {
     uint purpose = ENDED;
     bool is_packet_at_rest = true;
     Ray ray = Ray(view.position, view.position_error, view.ahead);
-    Departure departure = Departure(NOTHING, CURVED, false);
-    bool may_see_ball = false; // a primary ray that may
+    OriginSurface origin_surface = OriginSurface(NOTHING, CURVED, false);
+    bool may_see_light_sphere = false; // a primary ray that may
 
     // The nearest hit so far of the ray, and then what its lights add up to.
     Hit nearest;
-    Material matter;
-    Real3 emitted = Real3(0.0), ray_direction = ray.direction;
+    Material hit_material;
+    Real3 local_radiance = Real3(0.0), ray_direction = ray.direction;
     uint light_index = 0u; // of the first light that has not been tried
-    Light lamp;
+    Light current_light;
     // The only one is read once.
-    if (LIGHTS == 1u || BALLS == 1u) lamp = light(0u);
+    if (LIGHTS == 1u || LIGHT_SPHERES == 1u) current_light = light(0u);
     Real light_distance;
-    Real3 sent; // back along the ray, of what the lamp gives
+    Real3 direct; // back along the ray, of what the current light gives
     bool is_hit = false;
 
     // Where the search stands.
@@ -59,11 +59,11 @@ void trace(View view) {
     bool is_own_due = false; // the solid that the ray leaves inwards is to be solved first
 
     for (;;) {
-        turns++;
+        iterations++;
         Found found;
         bool is_shadow_ray, is_candidate, is_unshaded;
         for (;;) {
-            turns++;
+            iterations++;
             bool starts = is_packet_at_rest && begun < PIXELS;
             bool is_reflected = HAS_REFLECTIONS && purpose == REFLECTED;
             if (starts || is_reflected) {
@@ -75,28 +75,28 @@ void trace(View view) {
                     if (begun > 0u) put(begun - 1u, path.color, true);
                     begun++;
                     path = Path(Real3(0.0), 1.0, 0u);
-                    departure = Departure(NOTHING, CURVED, false);
+                    origin_surface = OriginSurface(NOTHING, CURVED, false);
                 } else if (HAS_REFLECTIONS) {
                     direction = mirrored(ray_direction, nearest.normal);
                     purpose = TO_NEAREST;
                 }
                 direction = unit(direction);
                 ray = Ray(starts ? view.position : nearest.point, starts ? view.position_error : Real3(0.0), direction);
-                if (BALLS > 0u) may_see_ball = starts && may_meet_a_ball(ray, lamp);
+                if (LIGHT_SPHERES > 0u) may_see_light_sphere = starts && may_meet_a_light_sphere(ray, current_light);
                 is_hit = false;
                 limit = FAR;
                 after_key = 0u;
                 after_group = -1;
-                is_own_due = departure.inside;
+                is_own_due = origin_surface.inside;
             }
 
-            Beam beam = beam_of(ray);
-            beam.skipped = departure.slot;
-            beam.after_key = after_key;
-            beam.after_group = after_group;
+            TraversalRay traversal = traversal_ray_of(ray);
+            traversal.skipped = origin_surface.slot;
+            traversal.after_key = after_key;
+            traversal.after_group = after_group;
             is_shadow_ray = HAS_SHADOWS && purpose == TO_LIGHT;
-            beam.target_size = is_shadow_ray ? float(min(largest_component(lamp.position), Real(FAR))) : -1.0;
-            found = next_candidate(beam, limit, purpose != ENDED && !is_own_due);
+            traversal.target_size = is_shadow_ray ? float(min(largest_component(current_light.position), Real(FAR))) : -1.0;
+            found = next_candidate(traversal, limit, purpose != ENDED && !is_own_due);
             bool is_hidden = is_shadow_ray && !is_own_due && found.limit == HIDDEN;
             uint last_key = uint(floatBitsToInt(limit)) | 7u;
             is_candidate = purpose != ENDED && (is_own_due || (found.key <= last_key && !is_hidden));
@@ -104,10 +104,10 @@ void trace(View view) {
             // A ray that meets nothing more may end its generation at once.
             bool is_through = purpose != ENDED && !is_candidate;
             bool has_lights_left = LIGHTS > 1u && light_index < frame.light_count;
-            is_unshaded = is_through && (is_shadow_ray ? has_lights_left : is_hit || (BALLS > 0u && may_see_ball));
-            if (is_through && is_shadow_ray && !is_hidden) emitted = limited(emitted + sent);
-            if (is_through && !is_shadow_ray && !is_hit) emitted = view.background;
-            if (is_through && !is_unshaded) purpose = next_generation(emitted, is_hit, matter.specular, path);
+            is_unshaded = is_through && (is_shadow_ray ? has_lights_left : is_hit || (LIGHT_SPHERES > 0u && may_see_light_sphere));
+            if (is_through && is_shadow_ray && !is_hidden) local_radiance = limited(local_radiance + direct);
+            if (is_through && !is_shadow_ray && !is_hit) local_radiance = view.background;
+            if (is_through && !is_unshaded) purpose = next_bounce(local_radiance, is_hit, hit_material.specular, path);
 
             const uint WORK = 1u, RAY = 2u;
             uint there_is = (is_candidate || is_unshaded ? WORK : 0u) | (purpose != ENDED ? RAY : 0u);
@@ -116,36 +116,36 @@ void trace(View view) {
             bool goes_on = there_is == RAY || (is_packet_at_rest && begun < PIXELS);
             // Rays that go each for itself take a turn of all: left by one after another, this loop is what Mesa 22.3 draws
             // scenes with several lights wrong from.
-            if (!IN_PACKETS || !goes_on || turns >= LOOP_TURNS) break;
+            if (!IN_PACKETS || !goes_on || iterations >= MAX_ITERATIONS) break;
         }
 
         // What the ray meets where it meets no solid before.
         Real3 seen = view.background;
         Real seen_t = LARGEST;
-        if (BALLS > 0u) {
+        if (LIGHT_SPHERES > 0u) {
             Real3 intensity;
-            bool looks = may_see_ball && !is_shadow_ray && (is_candidate || is_unshaded);
-            Real ball_t = ball_ahead(ray, lamp, looks, intensity);
-            if (looks && ball_t < LARGEST) {
+            bool looks = may_see_light_sphere && !is_shadow_ray && (is_candidate || is_unshaded);
+            Real light_sphere_t = light_sphere_ahead(ray, current_light, looks, intensity);
+            if (looks && light_sphere_t < LARGEST) {
                 seen = intensity;
-                seen_t = ball_t;
-                limit = min(limit, up_to(ball_t));
+                seen_t = light_sphere_t;
+                limit = min(limit, up_to(light_sphere_t));
             }
         }
 
         Hit hit;
         uint found_slot = 8u * uint(found.group) + (found.key & 7u);
-        uint slot = is_own_due ? departure.slot : (is_candidate ? found_slot : 0u);
-        bool is_met = meet(slot, ray, departure, hit) && is_candidate;
+        uint slot = is_own_due ? origin_surface.slot : (is_candidate ? found_slot : 0u);
+        bool is_met = meet(slot, ray, origin_surface, hit) && is_candidate;
         Material met = material(slot);
-        if (!is_shadow_ray && is_met && (BALLS == 0u || hit.t <= seen_t) &&
-            (!is_hit || is_nearer(hit, met.primitive, nearest, matter.primitive, ray))) {
+        if (!is_shadow_ray && is_met && (LIGHT_SPHERES == 0u || hit.t <= seen_t) &&
+            (!is_hit || is_nearer(hit, met.primitive, nearest, hit_material.primitive, ray))) {
             nearest = hit;
-            matter = met;
+            hit_material = met;
             is_hit = true;
             limit = up_to(hit.t);
         }
-        bool is_hidden = HAS_SHADOWS && is_shadow_ray && is_met && is_before(hit, ray, lamp.position, light_distance);
+        bool is_hidden = HAS_SHADOWS && is_shadow_ray && is_met && is_before(hit, ray, current_light.position, light_distance);
         // Whether another candidate may come before what is known.
         uint last_key = uint(floatBitsToInt(limit)) | 7u;
         bool goes_on = is_candidate && !is_hidden && (is_own_due || found.next_key <= last_key);
@@ -155,10 +155,10 @@ void trace(View view) {
 
         // The ray has come to its end: what it brings, and what comes next.
         bool is_done = is_unshaded || (is_candidate && !goes_on);
-        if (is_candidate && is_done && is_shadow_ray && !is_hidden) emitted = limited(emitted + sent);
+        if (is_candidate && is_done && is_shadow_ray && !is_hidden) local_radiance = limited(local_radiance + direct);
         if (is_done && !is_shadow_ray) {
-            emitted = is_hit ? matter.ambient * matter.color : seen;
-            departure = Departure(nearest.slot, nearest.face, nearest.inside);
+            local_radiance = is_hit ? hit_material.ambient * hit_material.color : seen;
+            origin_surface = OriginSurface(nearest.slot, nearest.face, nearest.inside);
             ray_direction = ray.direction;
             light_index = 0u;
         }
@@ -170,8 +170,8 @@ void trace(View view) {
         if (LIGHTS > 0u) {
             bool is_seeking = is_done && is_hit && light_index < frame.light_count;
             for (;;) {
-                turns++;
-                Light next = lamp;
+                iterations++;
+                Light next = current_light;
                 if (LIGHTS > 1u) next = light(min(light_index, frame.light_count - 1u));
                 Real distance_to_next;
                 Real3 direction_to_next = towards(next, nearest.point, distance_to_next);
@@ -179,17 +179,17 @@ void trace(View view) {
                 // A light at the hit point gives nothing.
                 bool shines = is_seeking && distance_to_next > 0.0 && cosine > 0.0 &&
                               (nearest.face == CURVED || is_above(next, nearest, cosine * distance_to_next));
-                Real3 sent_by_next = sent_back(matter, nearest.normal, ray_direction, direction_to_next, cosine, next);
+                Real3 direct_of_next = direct_radiance(hit_material, nearest.normal, ray_direction, direction_to_next, cosine, next);
                 // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
-                bool is_faint = path.weight * largest_component(sent_by_next) <= Real(frame.least_shadowed);
+                bool is_faint = path.weight * largest_component(direct_of_next) <= Real(frame.min_shadowed);
                 if (HAS_SHADOWS && shines && !is_faint) {
                     is_lit = true;
-                    lamp = next;
+                    current_light = next;
                     light_distance = distance_to_next;
                     ray = Ray(nearest.point, Real3(0.0), direction_to_next);
-                    sent = sent_by_next;
+                    direct = direct_of_next;
                 } else if (shines) {
-                    emitted = limited(emitted + (is_faint ? Real3(0.5) * sent_by_next : sent_by_next));
+                    local_radiance = limited(local_radiance + (is_faint ? Real3(0.5) * direct_of_next : direct_of_next));
                 }
                 light_index += is_seeking ? 1u : 0u;
                 is_seeking = is_seeking && !is_lit && light_index < frame.light_count;
@@ -201,16 +201,16 @@ void trace(View view) {
             limit = up_to(light_distance);
             after_key = 0u;
             after_group = -1;
-            is_own_due = departure.inside;
+            is_own_due = origin_surface.inside;
         } else if (is_done) {
-            purpose = next_generation(emitted, is_hit, matter.specular, path);
+            purpose = next_bounce(local_radiance, is_hit, hit_material.specular, path);
         }
         is_packet_at_rest = !any_of_packet(purpose != ENDED);
-        if ((is_packet_at_rest && begun == PIXELS) || turns >= LOOP_TURNS) break;
+        if ((is_packet_at_rest && begun == PIXELS) || iterations >= MAX_ITERATIONS) break;
     }
-    // The last pixel, unfinished if turns ran out; then those never begun: black.
+    // The last pixel, unfinished if iterations ran out; then those never begun: black.
     for (;;) {
-        put(begun - 1u, path.color, turns < LOOP_TURNS);
+        put(begun - 1u, path.color, iterations < MAX_ITERATIONS);
         if (begun == PIXELS) break;
         begun++;
         path.color = Real3(0.0);

@@ -150,7 +150,7 @@ struct InWindow<'d> {
 }
 
 impl Stage for InWindow<'_> {
-    fn take_up(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError> {
+    fn set_scene(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError> {
         self.scene = Scene { max_depth: plan.generations, ..scene.clone() };
         Ok(())
     }

@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::options::{parse_depth, parse_error, parse_size};
 use super::{DeviceArgs, print_json, print_line, scene_named};
 use crate::gpu::{self, DeviceDescription, GpuError};
-use crate::plan::{Bounds, Cuts, Limits, Line, Plan, Precision, Wishes};
+use crate::plan::{Approximations, Bounds, Limits, Line, Plan, Precision, Wishes};
 use crate::tracer::limits_of;
 
 /// Tell what will run for a scene, what is left out and why, and what that saves
@@ -49,7 +49,8 @@ struct Report<'a> {
     error: f64,
     bound: f64,
     bounds: Bounds,
-    cuts: Cuts,
+    #[serde(rename = "cuts")]
+    approximations: Approximations,
     decisions: Vec<Line>,
     /// Why the picture will not be right; null where it will.
     warning: Option<String>,
@@ -72,7 +73,7 @@ pub fn run(args: &PlanArgs) -> Result<()> {
             error: plan.error,
             bound: plan.bounds.total(),
             bounds: plan.bounds,
-            cuts: plan.cuts,
+            approximations: plan.approximations,
             decisions: plan.lines(),
             warning: plan.warning(),
         });

@@ -65,7 +65,7 @@ pub struct DeviceDescription {
     /// Whether kernels can calculate in `f64`.
     pub float64: bool,
     /// Whether a kernel's invocations come by eights that can hand each other numbers, as on a CPU driver with AVX.
-    pub octets: bool,
+    pub packets: bool,
     /// All that it lacks; empty when it can be used.
     pub lacks: Vec<String>,
 }
@@ -153,7 +153,7 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
                 .push_next(&mut subgroups);
             instance.raw.get_physical_device_properties2(raw, &mut properties2);
             let driver = format!("{} {}", text(driver.driver_name_as_c_str()), text(driver.driver_info_as_c_str()));
-            (driver, FloatControls::of(&floats), subgroups_are_octets(&subgroups), Features::offered(instance, raw))
+            (driver, FloatControls::of(&floats), subgroups_are_packets(&subgroups), Features::offered(instance, raw))
         });
         (properties, families, of_1_2)
     };
@@ -180,8 +180,8 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
     }
     let queue_family = able.iter().copied().find(has_timestamps).or(able.first().copied());
 
-    let (driver, float_controls, has_octets, features) = match of_1_2 {
-        Some((driver, controls, octets, features)) => (driver, controls, octets, features),
+    let (driver, float_controls, has_packets, features) = match of_1_2 {
+        Some((driver, controls, packets, features)) => (driver, controls, packets, features),
         None => (format!("version {:#x}", properties.driver_version), Default::default(), false, Features::default()),
     };
     let kind = DeviceKind::from_vulkan(properties.device_type);
@@ -200,7 +200,7 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
             max_texels: properties.limits.max_texel_buffer_elements.into(),
             float64: features.of_1_0.shader_float64 == vk::TRUE,
             // Elsewhere a subgroup of eight may be a part of what a GPU does at once, and not all of it there.
-            octets: has_octets && kind == DeviceKind::Cpu,
+            packets: has_packets && kind == DeviceKind::Cpu,
             lacks,
         },
         features,
@@ -212,7 +212,7 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
     }
 }
 
-fn subgroups_are_octets(subgroups: &vk::PhysicalDeviceSubgroupProperties) -> bool {
+fn subgroups_are_packets(subgroups: &vk::PhysicalDeviceSubgroupProperties) -> bool {
     subgroups.subgroup_size == 8
         && subgroups.supported_stages.contains(vk::ShaderStageFlags::COMPUTE)
         && subgroups.supported_operations.contains(vk::SubgroupFeatureFlags::SHUFFLE)
@@ -285,7 +285,7 @@ mod tests {
             max_storage_bytes: 1 << 27,
             max_texels: 1 << 27,
             float64: true,
-            octets: false,
+            packets: false,
             lacks: lacks.iter().map(|&lack| lack.to_owned()).collect(),
         }
     }

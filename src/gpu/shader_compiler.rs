@@ -28,28 +28,28 @@ const fn whitted(suffix: &'static str, macros: &'static [(&'static str, &'static
 pub const AS_IT_STANDS: Variant = Variant { suffix: "", macros: &[], asks_for_float_controls: false };
 
 const PRECISIONS: [Variant; 2] = [
-    whitted("_f32", &[("REAL_BITS", "32"), ("COMPENSATION", "1"), ("OCTETS", "0")]),
-    whitted("_f64", &[("REAL_BITS", "64"), ("COMPENSATION", "1"), ("OCTETS", "0")]),
+    whitted("_f32", &[("REAL_BITS", "32"), ("COMPENSATION", "1"), ("PACKETS", "0")]),
+    whitted("_f64", &[("REAL_BITS", "64"), ("COMPENSATION", "1"), ("PACKETS", "0")]),
 ];
 
 /// The precisions, and what `f32` is worth without compensation.
 const WITH_PLAIN: [Variant; 3] =
-    [PRECISIONS[0], PRECISIONS[1], whitted("_plain", &[("REAL_BITS", "32"), ("COMPENSATION", "0"), ("OCTETS", "0")])];
+    [PRECISIONS[0], PRECISIONS[1], whitted("_plain", &[("REAL_BITS", "32"), ("COMPENSATION", "0"), ("PACKETS", "0")])];
 
 /// These once more for devices whose invocations come by eights.
-const WITH_OCTETS: [Variant; 6] = [
+const WITH_PACKETS: [Variant; 6] = [
     WITH_PLAIN[0],
     WITH_PLAIN[1],
     WITH_PLAIN[2],
-    whitted("_f32_octets", &[("REAL_BITS", "32"), ("COMPENSATION", "1"), ("OCTETS", "1")]),
-    whitted("_f64_octets", &[("REAL_BITS", "64"), ("COMPENSATION", "1"), ("OCTETS", "1")]),
-    whitted("_plain_octets", &[("REAL_BITS", "32"), ("COMPENSATION", "0"), ("OCTETS", "1")]),
+    whitted("_f32_packets", &[("REAL_BITS", "32"), ("COMPENSATION", "1"), ("PACKETS", "1")]),
+    whitted("_f64_packets", &[("REAL_BITS", "64"), ("COMPENSATION", "1"), ("PACKETS", "1")]),
+    whitted("_plain_packets", &[("REAL_BITS", "32"), ("COMPENSATION", "0"), ("PACKETS", "1")]),
 ];
 
 /// The builds of a kernel, by its [name](kernel_name).
 pub fn variants(name: &str) -> &'static [Variant] {
     match name {
-        "whitted" => &WITH_OCTETS,
+        "whitted" => &WITH_PACKETS,
         "probe_rays" => &WITH_PLAIN,
         "probe_exact" => &PRECISIONS,
         _ => &[AS_IT_STANDS],

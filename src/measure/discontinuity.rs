@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::reference::{Image64, LIGHT_BALL};
+use crate::reference::{Image64, LIGHT_SPHERE};
 use crate::tracer::Precision;
 
 /// How far a picture is from the reference.
@@ -15,7 +15,7 @@ pub struct Difference {
     pub smooth: usize,
     /// Pixels beside a pixel whose ray went another way, corners included.
     pub discontinuities: usize,
-    /// Discontinuity pixels that differ by more than the bar.
+    /// Discontinuity pixels that differ by more than the tolerance.
     pub differing: usize,
     /// Pixels with NaN or infinity.
     pub not_finite: usize,
@@ -24,8 +24,8 @@ pub struct Difference {
 }
 
 impl Difference {
-    /// Over the pixels that `is_counted`, by their number; `bar`: linear. `ours` in the reference's order.
-    pub fn between(truth: &Image64, ours: &[DVec3], bar: f64, is_counted: impl Fn(usize) -> bool) -> Self {
+    /// Over the pixels that `is_counted`, by their number; `tolerance`: linear. `ours` in the reference's order.
+    pub fn between(truth: &Image64, ours: &[DVec3], tolerance: f64, is_counted: impl Fn(usize) -> bool) -> Self {
         let mut difference = Self::default();
         let discontinuities = discontinuities(truth);
         let pixels = truth.pixels.iter().zip(ours).enumerate();
@@ -34,10 +34,10 @@ impl Difference {
             let error = (pixel.color - color).abs().max_element();
             let error = if error.is_nan() { f64::INFINITY } else { error };
             difference.not_finite += usize::from(!color.is_finite());
-            difference.solid += usize::from(pixel.first_hit < LIGHT_BALL);
+            difference.solid += usize::from(pixel.first_hit < LIGHT_SPHERE);
             if discontinuities[index] {
                 difference.discontinuities += 1;
-                difference.differing += usize::from(error > bar);
+                difference.differing += usize::from(error > tolerance);
             } else {
                 difference.smooth += 1;
                 difference.largest = difference.largest.max(error);
@@ -64,14 +64,14 @@ impl Difference {
     }
 }
 
-/// The release bars of NUMERICS.md: largest difference of a channel off discontinuities, and the share of discontinuity
+/// The release tolerances of docs/numerics.md: largest difference of a channel off discontinuities, and the share of discontinuity
 /// pixels that may differ by more than that.
-pub fn bars(precision: Precision) -> (f64, f64) {
+pub fn tolerances(precision: Precision) -> (f64, f64) {
     let share = match precision {
         Precision::F32 => 1e-3,
         Precision::F64 => 1e-6,
     };
-    (precision.rounding_bar(), share)
+    (precision.rounding_tolerance(), share)
 }
 
 /// Where the reference's path differs from a neighbour's.

@@ -91,7 +91,7 @@ pub fn scene_maps(
             Ok(frame) => Ok(drawn(&frame)?),
             // What this kernel alone cannot do.
             Err(SceneMapsError::Plan(error)) => Err(error.to_string()),
-            Err(SceneMapsError::Tracer(error @ (TracerError::Refused(_) | TracerError::GaveUp { .. }))) => {
+            Err(SceneMapsError::Tracer(error @ (TracerError::Refused(_) | TracerError::LoopLimitReached { .. }))) => {
                 Err(error.to_string())
             }
             Err(error) => return Err(error),

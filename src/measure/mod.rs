@@ -13,7 +13,7 @@ mod statistics;
 mod timing;
 pub mod trade;
 
-pub use discontinuity::{Difference, bars};
+pub use discontinuity::{Difference, tolerances};
 pub use error_map::{LARGEST_ERROR, SMALLEST_ERROR, error_color, error_map, error_scale};
 pub use gallery_maps::{Drawn, KernelMap, SceneMaps, SceneMapsError, scene_maps};
 pub use image_error::{ComparisonError, ErrorDomain, ImageError, image_error};

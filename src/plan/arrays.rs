@@ -3,14 +3,14 @@
 use super::{Limits, PlanError, Precision, Structure, is_close_up};
 use crate::scene::{Scene, SolidKind};
 
-/// Rows of four numbers in the kernel's records: of a solid of each kind, of its outline, of a box around solids, a
+/// Rows of four numbers in the kernel's records: of a solid of each kind, of its proxy, of a box around solids, a
 /// material, the view and a light (`glsl/whitted/scene.glsl`).
 const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
 const CLOSE_UP_ROWS: [usize; 4] = [3, 7, 5, 4];
 pub(crate) const MATERIAL_ROWS: usize = 2;
 pub(crate) const VIEW_ROWS: usize = 6;
 pub(crate) const LIGHT_ROWS: usize = 2;
-const OUTLINE_ROWS: [usize; 4] = [1, 2, 2, 2];
+const PROXY_ROWS: [usize; 4] = [1, 2, 2, 2];
 const BOX_ROWS: usize = 2;
 
 /// Rows of a solid of that kind.
@@ -33,7 +33,7 @@ pub(super) fn check_arrays(
         };
         (1..=levels).map(|level| whole(count.div_ceil(Structure::GROUP.pow(level)))).sum()
     };
-    let of_kind = |kind: usize| OUTLINE_ROWS[kind] * whole(counts[kind]) + BOX_ROWS * boxes_over(counts[kind]);
+    let of_kind = |kind: usize| PROXY_ROWS[kind] * whole(counts[kind]) + BOX_ROWS * boxes_over(counts[kind]);
     let is_close_up = is_close_up(scene, precision);
     let [spheres, boxes, cylinders, cones] =
         SolidKind::ALL.map(|kind| solid_row_count(kind, is_close_up) * whole(counts[kind as usize]));
@@ -49,10 +49,10 @@ pub(super) fn check_arrays(
         ("cones", cones),
         ("materials", MATERIAL_ROWS * counts.map(whole).iter().sum::<usize>()),
     ];
-    // The outlines are of `f32` for either precision.
-    let outlines = ("outlines", 16 * (0..4).map(of_kind).sum::<usize>() as u64);
+    // The proxies are of `f32` for either precision.
+    let proxies = ("proxies", 16 * (0..4).map(of_kind).sum::<usize>() as u64);
     let limit = limits.max_array_bytes;
-    let mut arrays = own.into_iter().map(|(array, rows)| (array, rows as u64 * row_bytes)).chain([outlines]);
+    let mut arrays = own.into_iter().map(|(array, rows)| (array, rows as u64 * row_bytes)).chain([proxies]);
     match arrays.find(|&(_, bytes)| bytes > limit) {
         Some((array, bytes)) => Err(PlanError::TooLarge { array, bytes, limit, precision }),
         None => Ok(()),

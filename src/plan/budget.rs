@@ -1,4 +1,4 @@
-//! What an allowed error buys (NUMERICS.md, «Cutting generations with a guarantee»).
+//! What an allowed error buys (docs/numerics.md, «Cutting generations with a guarantee»).
 //!
 //! A pixel is Σ T·E over the generations of its ray, T being the product of the speculars met before. Three things may
 //! be left out of it, each for a part of the allowed error, and the parts add up: none of them turns a ray, so one cut
@@ -18,16 +18,19 @@ use crate::scene::{Material, Scene};
 
 /// What a kernel leaves out. The numbers are `f32` for kernels of either precision.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Cuts {
+pub struct Approximations {
     /// A path ends as soon as its weight is not above that; below 1.
-    pub least_weight: f32,
+    #[serde(rename = "least_weight")]
+    pub min_throughput: f32,
     /// No shadow ray is traced for light of which no channel, times the path's weight, is above that; half of such light
     /// counts, so that the error is at most half of it whether a solid is in the way or not.
-    pub least_shadowed: f32,
+    #[serde(rename = "least_shadowed")]
+    pub min_shadowed: f32,
     /// Whether there are highlights.
     pub highlights: bool,
-    /// Whether the camera may see the ball of a light.
-    pub balls: bool,
+    /// Whether the camera may see the light sphere.
+    #[serde(rename = "balls")]
+    pub light_spheres: bool,
     /// Whether there is light that brightens anything.
     pub lights: bool,
     /// Whether solids may hide lights.
@@ -36,13 +39,13 @@ pub struct Cuts {
     pub reflections: bool,
 }
 
-impl Cuts {
+impl Approximations {
     /// An exact picture.
     pub const NONE: Self = Self {
-        least_weight: 0.0,
-        least_shadowed: 0.0,
+        min_throughput: 0.0,
+        min_shadowed: 0.0,
         highlights: true,
-        balls: true,
+        light_spheres: true,
         lights: true,
         shadows: true,
         reflections: true,
@@ -119,7 +122,7 @@ impl Transport {
         let intensity: DVec3 = self.intensities.iter().sum();
         let surface = |material: &Material| Surface {
             specular: material.specular,
-            emitted: material.ambient * material.color + received(material, highlights) * intensity,
+            local_radiance: material.ambient * material.color + received(material, highlights) * intensity,
         };
         ceilings(self.background, &self.materials.iter().map(surface).collect::<Vec<_>>(), depth)
     }
@@ -127,8 +130,10 @@ impl Transport {
     /// The most that all highlights on a path add.
     fn highlight_ceiling(&self, depth: u32) -> f64 {
         let intensity: DVec3 = self.intensities.iter().sum();
-        let surface =
-            |material: &Material| Surface { specular: material.specular, emitted: material.specular * intensity };
+        let surface = |material: &Material| Surface {
+            specular: material.specular,
+            local_radiance: material.specular * intensity,
+        };
         let surfaces: Vec<_> = self.materials.iter().map(surface).collect();
         ceilings(DVec3::ZERO, &surfaces, depth)[depth as usize].max_element()
     }
@@ -149,13 +154,13 @@ const GENERATIONS_SHARE: f64 = 0.75;
 /// An allowed error, spent.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Spent {
-    pub cuts: Cuts,
+    pub approximations: Approximations,
     pub bounds: Bounds,
-    /// No path has a weight above `Cuts::least_weight` after so many generations.
+    /// No path has a weight above `Approximations::min_throughput` after so many generations.
     pub generations: u32,
 }
 
-/// Cuts whose bounds add up to at most `error`, for paths of `depth` generations at most.
+/// Approximations whose bounds add up to at most `error`, for paths of `depth` generations at most.
 pub(super) fn spend(
     transport: &Transport,
     error: f64,
@@ -164,8 +169,8 @@ pub(super) fn spend(
     traces_shadow_rays: bool,
     has_highlights: bool,
 ) -> Spent {
-    let exact = Cuts { highlights: has_highlights, ..Cuts::NONE };
-    let mut spent = Spent { cuts: exact, bounds: Bounds::default(), generations: depth };
+    let exact = Approximations { highlights: has_highlights, ..Approximations::NONE };
+    let mut spent = Spent { approximations: exact, bounds: Bounds::default(), generations: depth };
     if error == 0.0 {
         return spent;
     }
@@ -176,18 +181,18 @@ pub(super) fn spend(
     if has_highlights {
         let bound = transport.highlight_ceiling(depth);
         if bound <= HIGHLIGHTS_SHARE * left {
-            spent.cuts.highlights = false;
+            spent.approximations.highlights = false;
             spent.bounds.highlights = bound * slack;
             left -= bound;
         }
     }
 
     let for_generations = if traces_shadow_rays { GENERATIONS_SHARE * left } else { left };
-    if let Some(cut) = cut_generations(transport, for_generations, depth, spent.cuts.highlights) {
+    if let Some(cut) = approximated_generations(transport, for_generations, depth, spent.approximations.highlights) {
         // The kernel's weight may be smaller than the true one by the slack.
-        let least_weight = rounded_down(cut.weight / slack);
-        if least_weight > 0.0 {
-            spent.cuts.least_weight = least_weight;
+        let min_throughput = rounded_down(cut.weight / slack);
+        if min_throughput > 0.0 {
+            spent.approximations.min_throughput = min_throughput;
             spent.bounds.generations = cut.bound * slack;
             spent.generations = cut.generations;
             left -= cut.bound;
@@ -195,10 +200,10 @@ pub(super) fn spend(
     }
 
     if traces_shadow_rays {
-        let shadows = Shadows::new(transport, spent.generations, spent.cuts.highlights);
-        let least_shadowed = rounded_down(shadows.least_within(left));
-        spent.cuts.least_shadowed = least_shadowed;
-        spent.bounds.shadows = shadows.bound(f64::from(least_shadowed)) * slack;
+        let shadows = Shadows::new(transport, spent.generations, spent.approximations.highlights);
+        let min_shadowed = rounded_down(shadows.least_within(left));
+        spent.approximations.min_shadowed = min_shadowed;
+        spent.bounds.shadows = shadows.bound(f64::from(min_shadowed)) * slack;
     }
     spent
 }
@@ -231,7 +236,7 @@ struct GenerationCut {
 /// With k and K the least and the largest specular that reflects, a path's weight after m reflections is from kᵐ to Kᵐ.
 /// So where τ < kᵐ⁻¹ none is cut before it has been reflected m times: it weighs at most min(τ, Kᵐ) then, and has
 /// `depth` − m generations to go, of which the ceiling is known.
-fn cut_generations(transport: &Transport, error: f64, depth: u32, highlights: bool) -> Option<GenerationCut> {
+fn approximated_generations(transport: &Transport, error: f64, depth: u32, highlights: bool) -> Option<GenerationCut> {
     let (least, largest) = (transport.least_reflecting_specular(), transport.largest_specular());
     if least == 1.0 || largest == 0.0 {
         return None;
@@ -269,7 +274,7 @@ fn longest(largest_specular: f64, weight: f64, depth: u32) -> u32 {
 /// What leaving out shadow rays can change.
 struct Shadows {
     /// Of each light, the most that any surface sends back.
-    sent: Vec<DVec3>,
+    direct: Vec<DVec3>,
     largest_specular: f64,
     generations: u32,
 }
@@ -277,17 +282,17 @@ struct Shadows {
 impl Shadows {
     fn new(transport: &Transport, generations: u32, highlights: bool) -> Self {
         let received = transport.most_received(highlights);
-        let sent = transport.intensities.iter().map(|&intensity| received * intensity).collect();
-        Self { sent, largest_specular: transport.largest_specular(), generations }
+        let direct = transport.intensities.iter().map(|&intensity| received * intensity).collect();
+        Self { direct, largest_specular: transport.largest_specular(), generations }
     }
 
     /// ½·Σ min(ε, Kᵍ·sent) over generations g and lights: half of each light's part, which is at most ε where the ray is
     /// left out.
-    fn bound(&self, least_shadowed: f64) -> f64 {
+    fn bound(&self, min_shadowed: f64) -> f64 {
         let mut sum = DVec3::ZERO;
         let mut weight = 1.0;
         for _ in 0..self.generations {
-            let of_lights = self.sent.iter().map(|&sent| DVec3::splat(least_shadowed).min(weight * sent));
+            let of_lights = self.direct.iter().map(|&direct| DVec3::splat(min_shadowed).min(weight * direct));
             sum += of_lights.sum::<DVec3>();
             weight *= self.largest_specular;
         }
@@ -296,12 +301,12 @@ impl Shadows {
 
     /// About the largest ε whose bound is within `error`, never above; infinite where all shadows fit.
     fn least_within(&self, error: f64) -> f64 {
-        let largest = self.sent.iter().map(|sent| sent.max_element()).fold(0.0, f64::max);
+        let largest = self.direct.iter().map(|direct| direct.max_element()).fold(0.0, f64::max);
         if self.bound(largest) <= error {
             return f64::INFINITY;
         }
         // The bound is at most ½·ε for each light in each generation, and at least half of one ε.
-        let mut low = 2.0 * error / (f64::from(self.generations) * self.sent.len() as f64);
+        let mut low = 2.0 * error / (f64::from(self.generations) * self.direct.len() as f64);
         let mut high = (2.0 * error).min(largest);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);

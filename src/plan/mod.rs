@@ -11,24 +11,24 @@
 //! ```
 
 mod arrays;
-mod balls;
 mod budget;
 mod ceiling;
+mod light_spheres;
 mod precision;
 mod reason;
 mod rounding;
 mod solids;
 mod tiling;
-mod turns;
+mod traversal_cost;
 
 pub(crate) use arrays::{LIGHT_ROWS, MATERIAL_ROWS, VIEW_ROWS, solid_row_count};
-pub use balls::Area;
-pub use budget::{Bounds, Cuts};
+pub use budget::{Approximations, Bounds};
+pub use light_spheres::Area;
 pub use precision::Precision;
 pub use reason::{Line, Reason};
-pub use rounding::{Cause, Near, Rounding, is_close_up, kernel_frame};
+pub use rounding::{Cause, Near, Rounding, is_close_up, scene_space};
 pub use tiling::{tile_side, tried_under_boxes};
-pub use turns::{CPU_LOOP_TURNS, Crowd, MOST_PIXELS};
+pub use traversal_cost::{CPU_MAX_ITERATIONS, MOST_PIXELS, TraversalCost};
 
 use glam::DVec3;
 use thiserror::Error;
@@ -36,7 +36,7 @@ use thiserror::Error;
 use crate::scene::{DEPTH_LIMIT, Scene, SolidKind};
 use arrays::check_arrays;
 use budget::{Spent, Transport, spend};
-use solids::{is_lone_and_seen_from_outside, turned_boxes};
+use solids::{is_lone_and_seen_from_outside, rotated_boxes};
 
 /// What is asked for besides the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -101,7 +101,7 @@ pub struct Decision<T> {
 /// How the nearest solid is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Structure {
-    /// Every solid's outline is tried by every ray.
+    /// Every solid's proxy is tried by every ray.
     None,
     /// Boxes around every eight solids, around every eight boxes, and so on: so many levels.
     Hierarchy { levels: u32 },
@@ -148,10 +148,10 @@ impl Structure {
 pub struct Plan {
     /// Solids of each kind, in the order of [`SolidKind::ALL`].
     pub counts: [usize; 4],
-    /// Whether no box is turned against the world's axes.
-    pub upright_boxes: Decision<bool>,
-    /// Balls of lights that primary rays may see, those of dark lights too.
-    pub balls: Decision<usize>,
+    /// Whether no box is rotated against the world's axes.
+    pub axis_aligned_boxes: Decision<bool>,
+    /// Light spheres that primary rays may see, those of dark lights too.
+    pub light_spheres: Decision<usize>,
     /// Lights that brighten anything. Where there are none, nothing is shaded by light; one needs no loop.
     pub lights: Decision<usize>,
     /// Whether a solid may lie between a hit and a light.
@@ -177,7 +177,7 @@ pub struct Plan {
     /// The allowed error.
     pub error: f64,
     /// What it bought.
-    pub cuts: Cuts,
+    pub approximations: Approximations,
     /// What that can change; its total is at most `error`.
     pub bounds: Bounds,
 }
@@ -209,33 +209,33 @@ impl Plan {
         let generations = generations(scene, wishes, &transport, is_lone);
         let spent =
             spend(&transport, wishes.error, generations.choice, precision.choice, shadows.choice, highlights.choice);
-        let Spent { cuts, bounds, .. } = spent;
-        let generations = cut_generations(generations, &spent);
-        let balls = balls::decide(scene, wishes);
-        let cuts = Cuts {
-            balls: balls.choice > 0,
+        let Spent { approximations, bounds, .. } = spent;
+        let generations = approximated_generations(generations, &spent);
+        let light_spheres = light_spheres::decide(scene, wishes);
+        let approximations = Approximations {
+            light_spheres: light_spheres.choice > 0,
             lights: is_lit,
             shadows: shadows.choice,
             reflections: generations.choice > 1,
-            ..cuts
+            ..approximations
         };
         Ok(Self {
             counts,
-            upright_boxes: upright_boxes(scene, counts),
-            balls,
+            axis_aligned_boxes: axis_aligned_boxes(scene, counts),
+            light_spheres,
             lights,
             shadows,
-            highlights: cut_highlights(highlights, &spent),
+            highlights: approximated_highlights(highlights, &spent),
             close_up: rounding::close_up_ratio(scene, precision.choice),
             precision,
             rounding,
             structures: Structure::decide(counts),
             workgroup: Decision { choice: WORKGROUP, reason: Reason::SquareWorkgroup },
-            pixels: turns::decide(scene, generations.choice, limits),
+            pixels: traversal_cost::decide(scene, generations.choice, limits),
             tile_side: tiling::decide(scene, generations.choice, limits),
             generations,
             error: wishes.error,
-            cuts,
+            approximations,
             bounds,
         })
     }
@@ -289,15 +289,15 @@ impl Wishes {
     }
 }
 
-fn upright_boxes(scene: &Scene, counts: [usize; 4]) -> Decision<bool> {
+fn axis_aligned_boxes(scene: &Scene, counts: [usize; 4]) -> Decision<bool> {
     let boxes = counts[SolidKind::Box as usize];
-    let turned = turned_boxes(&scene.primitives);
-    let reason = match (boxes, turned) {
+    let rotated = rotated_boxes(&scene.primitives);
+    let reason = match (boxes, rotated) {
         (0, _) => Reason::NoBoxes,
-        (_, 0) => Reason::NoBoxTurned,
-        (boxes, turned) => Reason::BoxesTurned { boxes, turned },
+        (_, 0) => Reason::NoBoxRotated,
+        (boxes, rotated) => Reason::BoxesRotated { boxes, rotated },
     };
-    Decision { choice: turned == 0, reason }
+    Decision { choice: rotated == 0, reason }
 }
 
 fn lights(scene: &Scene, transport: &Transport) -> Decision<usize> {
@@ -334,8 +334,8 @@ fn highlights(transport: &Transport, is_lit: bool) -> Decision<bool> {
 }
 
 /// Highlights as far as the allowed error leaves them.
-fn cut_highlights(exact: Decision<bool>, spent: &Spent) -> Decision<bool> {
-    if exact.choice && !spent.cuts.highlights {
+fn approximated_highlights(exact: Decision<bool>, spent: &Spent) -> Decision<bool> {
+    if exact.choice && !spent.approximations.highlights {
         return Decision { choice: false, reason: Reason::HighlightsAreFaint { bound: spent.bounds.highlights } };
     }
     exact
@@ -362,11 +362,15 @@ fn generations(scene: &Scene, wishes: &Wishes, transport: &Transport, is_lone: b
 }
 
 /// The generations that the allowed error leaves.
-fn cut_generations(exact: Decision<u32>, spent: &Spent) -> Decision<u32> {
-    let Spent { cuts, bounds, generations } = *spent;
-    if cuts.least_weight == 0.0 {
+fn approximated_generations(exact: Decision<u32>, spent: &Spent) -> Decision<u32> {
+    let Spent { approximations, bounds, generations } = *spent;
+    if approximations.min_throughput == 0.0 {
         return exact;
     }
-    let reason = Reason::PathsFade { least_weight: cuts.least_weight, of: exact.choice, bound: bounds.generations };
+    let reason = Reason::PathsFade {
+        min_throughput: approximations.min_throughput,
+        of: exact.choice,
+        bound: bounds.generations,
+    };
     Decision { choice: generations, reason }
 }

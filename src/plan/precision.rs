@@ -44,9 +44,9 @@ impl Precision {
         }
     }
 
-    /// The release bar of NUMERICS.md: how far rounding may take a linear channel off discontinuities, in a picture
+    /// The release tolerance of docs/numerics.md: how far rounding may take a linear channel off discontinuities, in a picture
     /// whose light is about 1. It is tested over catalogues of scenes, not proven.
-    pub fn rounding_bar(self) -> f64 {
+    pub fn rounding_tolerance(self) -> f64 {
         match self {
             Self::F32 => 1.0 / 510.0,
             Self::F64 => 1e-9,
@@ -71,25 +71,25 @@ pub(super) fn choose(
         None => {}
     }
     let shift_pixels = silhouette_shift_pixels(scene, wishes, Precision::F32);
-    let bar = Precision::F32.rounding_bar() * brightest_source(scene).max(1.0);
+    let tolerance = Precision::F32.rounding_tolerance() * brightest_source(scene).max(1.0);
     let rounding = rounding_to_f32(scene, wishes, shift_pixels);
     let may_err = wishes.error > 0.0;
     let (choice, reason) = match rounding {
         Rounding::Harmful { wrong, tried, cause } => (Precision::F64, Reason::RoundingSpoils { wrong, tried, cause }),
         Rounding::Unknown { ratio } => (Precision::F64, Reason::RoundingIsUnknown { ratio }),
-        _ if may_err && wishes.error < bar => (Precision::F64, Reason::RoundingExceedsError { bar }),
+        _ if may_err && wishes.error < tolerance => (Precision::F64, Reason::RoundingExceedsError { tolerance }),
         _ if may_err && shift_pixels > LARGEST_SHIFT_PIXELS => {
             (Precision::F64, Reason::RoundingMovesSilhouettes { shift_pixels })
         }
-        _ if may_err => (Precision::F32, Reason::RoundingIsWithinError { bar, shift_pixels }),
-        Rounding::Harmless { tried } => (Precision::F32, Reason::RoundingIsHarmless { tried, bar }),
-        Rounding::Mild => (Precision::F32, Reason::RoundingIsNoCut { bar, shift_pixels }),
+        _ if may_err => (Precision::F32, Reason::RoundingIsWithinError { tolerance, shift_pixels }),
+        Rounding::Harmless { tried } => (Precision::F32, Reason::RoundingIsHarmless { tried, tolerance }),
+        Rounding::Mild => (Precision::F32, Reason::RoundingIsNoCut { tolerance, shift_pixels }),
     };
     let decision = match (choice, reason) {
         (Precision::F64, _) if limits.float64 => decide(choice, reason),
         // These say what is wrong, whatever draws.
         (_, Reason::RoundingSpoils { .. } | Reason::RoundingIsUnknown { .. }) => decide(Precision::F32, reason),
-        (Precision::F64, _) => decide(Precision::F32, Reason::NoFloat64 { bar, shift_pixels }),
+        (Precision::F64, _) => decide(Precision::F32, Reason::NoFloat64 { tolerance, shift_pixels }),
         (Precision::F32, _) => decide(choice, reason),
     };
     Ok((decision, Some(rounding)))
@@ -110,7 +110,7 @@ pub(super) fn brightest_source(scene: &Scene) -> f64 {
 /// No silhouette that the camera sees directly is drawn farther than that from where it is, in pixels. In mirrors there
 /// is no such bound: a round one multiplies an angle's error at every reflection.
 ///
-/// A kernel errs between hit and miss where the clearance is below 8u·size (NUMERICS.md, H); the stored solid is off by
+/// A kernel errs between hit and miss where the clearance is below 8u·size (docs/numerics.md, H); the stored solid is off by
 /// u of its place, seen from the camera, and of its size; the ray's direction by less than 32u of the window's extent.
 ///
 /// In a close-up the size's part is taken by the way from the solid's anchor. That is the point nearest to the camera, so

@@ -16,16 +16,16 @@ pub enum Reason {
     SceneSays,
     NoSolids,
     NoBoxes,
-    NoBoxTurned,
-    BoxesTurned {
+    NoBoxRotated,
+    BoxesRotated {
         boxes: usize,
-        turned: usize,
+        rotated: usize,
     },
     NoLights,
-    BallsOutOfSight {
+    LightSpheresOutOfSight {
         lights: usize,
     },
-    BallsInSight {
+    LightSpheresInSight {
         lights: usize,
         seen: usize,
     },
@@ -53,20 +53,20 @@ pub enum Reason {
     LoneSolidMirrorsBackground,
     /// `of`: generations without an error.
     PathsFade {
-        least_weight: f32,
+        min_throughput: f32,
         of: u32,
         bound: f64,
     },
-    /// `bar`: see [`Precision::rounding_bar`](super::Precision::rounding_bar), times the brightest source above 1;
+    /// `tolerance`: see [`Precision::rounding_tolerance`](super::Precision::rounding_tolerance), times the brightest source above 1;
     /// `shift_pixels`: of silhouettes that the camera sees directly.
     RoundingIsNoCut {
-        bar: f64,
+        tolerance: f64,
         shift_pixels: f64,
     },
-    /// Of so many pixels that were tried no more than a stray one changes by more than `bar`.
+    /// Of so many pixels that were tried no more than a stray one changes by more than `tolerance`.
     RoundingIsHarmless {
         tried: usize,
-        bar: f64,
+        tolerance: f64,
     },
     /// See [`Rounding::Harmful`](super::Rounding).
     RoundingSpoils {
@@ -79,18 +79,18 @@ pub enum Reason {
         ratio: f64,
     },
     RoundingIsWithinError {
-        bar: f64,
+        tolerance: f64,
         shift_pixels: f64,
     },
     RoundingExceedsError {
-        bar: f64,
+        tolerance: f64,
     },
     RoundingMovesSilhouettes {
         shift_pixels: f64,
     },
     /// Though the allowed error asks for it.
     NoFloat64 {
-        bar: f64,
+        tolerance: f64,
         shift_pixels: f64,
     },
     FewSolids {
@@ -103,7 +103,7 @@ pub enum Reason {
     },
     SquareWorkgroup,
     NoPackets,
-    PixelsInTurn,
+    ManyPixelsPerInvocation,
     LongPixels,
     LightTiles,
     /// `largest`: side of a tile without that, pixels.
@@ -119,11 +119,11 @@ impl fmt::Display for Reason {
             Self::SceneSays => write!(f, "as the scene says"),
             Self::NoSolids => write!(f, "there is no solid to be hit"),
             Self::NoBoxes => write!(f, "there are no boxes"),
-            Self::NoBoxTurned => write!(f, "no box is turned"),
-            Self::BoxesTurned { boxes, turned } => write!(f, "{turned} of {boxes} boxes are turned"),
+            Self::NoBoxRotated => write!(f, "no box is rotated"),
+            Self::BoxesRotated { boxes, rotated } => write!(f, "{rotated} of {boxes} boxes are rotated"),
             Self::NoLights => write!(f, "the scene has none"),
-            Self::BallsOutOfSight { lights } => write!(f, "the picture shows none of {lights}"),
-            Self::BallsInSight { lights, seen } => write!(f, "the picture may show {seen} of {lights}"),
+            Self::LightSpheresOutOfSight { lights } => write!(f, "the picture shows none of {lights}"),
+            Self::LightSpheresInSight { lights, seen } => write!(f, "the picture may show {seen} of {lights}"),
             Self::NothingTakesLight { lights } => {
                 write!(f, "{lights} in the scene, but no surface sends back anything of their light")
             }
@@ -143,24 +143,24 @@ impl fmt::Display for Reason {
             Self::LoneSolidMirrorsBackground => {
                 write!(f, "one convex solid, seen from outside, mirrors nothing but the background")
             }
-            Self::PathsFade { least_weight, of, bound } => write!(
+            Self::PathsFade { min_throughput, of, bound } => write!(
                 f,
                 "of {of}: a path ends at a weight of {}, and what it leaves out is at most {}",
-                Short(least_weight.into()),
+                Short(min_throughput.into()),
                 Short(bound)
             ),
-            Self::RoundingIsNoCut { bar, shift_pixels } => write!(
+            Self::RoundingIsNoCut { tolerance, shift_pixels } => write!(
                 f,
                 "nothing is cut by rounding: channels keep within {} off edges (tested), silhouettes seen \
                  directly within {} pixels",
-                Short(bar),
+                Short(tolerance),
                 Short(shift_pixels)
             ),
-            Self::RoundingIsHarmless { tried, bar } => write!(
+            Self::RoundingIsHarmless { tried, tolerance } => write!(
                 f,
                 "of {tried} pixels that were tried, rounding to f32 changes a channel of none or a stray one by more \
                  than {}",
-                Short(bar)
+                Short(tolerance)
             ),
             Self::RoundingSpoils { wrong, tried, cause } => {
                 write!(f, "rounding to f32 spoils {wrong} of {tried} pixels that were tried: {cause}")
@@ -170,27 +170,27 @@ impl fmt::Display for Reason {
                 "lengths differ by {}, and what rounding to f32 does to so many solids would take too long to try",
                 Short(ratio)
             ),
-            Self::RoundingIsWithinError { bar, shift_pixels } => write!(
+            Self::RoundingIsWithinError { tolerance, shift_pixels } => write!(
                 f,
                 "rounding to f32 keeps channels within {} off edges (tested; not part of the bound), silhouettes \
                  seen directly within {} pixels",
-                Short(bar),
+                Short(tolerance),
                 Short(shift_pixels)
             ),
-            Self::RoundingExceedsError { bar } => {
+            Self::RoundingExceedsError { tolerance } => {
                 write!(
                     f,
                     "rounding to f32 alone is only known to keep channels within {}, more than is allowed",
-                    Short(bar)
+                    Short(tolerance)
                 )
             }
             Self::RoundingMovesSilhouettes { shift_pixels } => {
                 write!(f, "rounding to f32 may move silhouettes by {} pixels", Short(shift_pixels))
             }
-            Self::NoFloat64 { bar, shift_pixels } => write!(
+            Self::NoFloat64 { tolerance, shift_pixels } => write!(
                 f,
                 "the device has no f64: rounding may change channels by {} and move silhouettes by {} pixels",
-                Short(bar),
+                Short(tolerance),
                 Short(shift_pixels)
             ),
             Self::FewSolids { solids, break_even } => {
@@ -201,7 +201,7 @@ impl fmt::Display for Reason {
             }
             Self::SquareWorkgroup => write!(f, "as many pixels as a wave has lanes, near each other"),
             Self::NoPackets => write!(f, "invocations do not come in packets that go together"),
-            Self::PixelsInTurn => write!(f, "a packet of rays that have ended goes on to its next pixels"),
+            Self::ManyPixelsPerInvocation => write!(f, "a packet of rays that have ended goes on to its next pixels"),
             Self::LongPixels => write!(f, "a pixel may take long by itself"),
             Self::LightTiles => write!(f, "one submission can trace that much within a second or two"),
             Self::HeavyTiles { largest } => {
@@ -251,10 +251,10 @@ impl Plan {
     /// Every decision, in the order in which a ray meets them.
     pub fn lines(&self) -> Vec<Line> {
         let mut lines: Vec<Line> = SolidKind::ALL.into_iter().map(|kind| self.kind_line(kind)).collect();
-        lines.push(self.upright_line());
+        lines.push(self.axis_aligned_line());
         lines.push(Line::new("structure", structures(&self.structures.choice), &self.structures, None));
         lines.extend([
-            self.balls_line(),
+            self.light_spheres_line(),
             self.lights_line(),
             self.shadows_line(),
             self.highlights_line(),
@@ -264,7 +264,7 @@ impl Plan {
         lines.extend(self.close_up_line());
         let [width, height] = self.workgroup.choice;
         lines.push(Line::new("workgroup", format!("{width}x{height}"), &self.workgroup, None));
-        lines.push(Line::new("pixels in turn", self.pixels.choice, &self.pixels, None));
+        lines.push(Line::new("pixels per invocation", self.pixels.choice, &self.pixels, None));
         let side = self.tile_side.choice;
         lines.push(Line::new("tiles", format!("{side}x{side}"), &self.tile_side, None));
         lines.extend(self.shadow_cut_line());
@@ -284,16 +284,16 @@ impl Plan {
         Line { what, choice: none_or(count), why, saves: (count == 0).then(|| search.to_owned()) }
     }
 
-    fn upright_line(&self) -> Line {
+    fn axis_aligned_line(&self) -> Line {
         let has_boxes = self.counts[SolidKind::Box as usize] > 0;
-        let saves = (self.upright_boxes.choice && has_boxes).then_some("the turn of every ray into every box");
-        let choice = if self.upright_boxes.choice { "none" } else { "yes" };
-        Line::new("turned boxes", choice, &self.upright_boxes, saves)
+        let saves = (self.axis_aligned_boxes.choice && has_boxes).then_some("the rotation of every ray into every box");
+        let choice = if self.axis_aligned_boxes.choice { "none" } else { "yes" };
+        Line::new("rotated boxes", choice, &self.axis_aligned_boxes, saves)
     }
 
-    fn balls_line(&self) -> Line {
-        let saves = (self.balls.choice == 0).then_some("the ball of every light for every primary ray");
-        Line::new("light balls", none_or(self.balls.choice), &self.balls, saves)
+    fn light_spheres_line(&self) -> Line {
+        let saves = (self.light_spheres.choice == 0).then_some("the sphere of every light for every primary ray");
+        Line::new("light spheres", none_or(self.light_spheres.choice), &self.light_spheres, saves)
     }
 
     fn lights_line(&self) -> Line {
@@ -342,7 +342,7 @@ impl Plan {
     }
 
     fn shadow_cut_line(&self) -> Option<Line> {
-        let least = self.cuts.least_shadowed;
+        let least = self.approximations.min_shadowed;
         (least > 0.0).then(|| Line {
             what: "faint shadows",
             choice: "left out".to_owned(),

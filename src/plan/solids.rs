@@ -86,12 +86,12 @@ pub(super) fn is_lone_and_seen_from_outside(scene: &Scene) -> bool {
 }
 
 /// Boxes whose axes are not the world's.
-pub(super) fn turned_boxes(primitives: &[Primitive]) -> usize {
-    let is_turned = |solid: &Solid| match *solid {
+pub(super) fn rotated_boxes(primitives: &[Primitive]) -> usize {
+    let is_rotated = |solid: &Solid| match *solid {
         Solid::Box { rotation_degrees, .. } => world_from_box(rotation_degrees) != glam::DMat3::IDENTITY,
         Solid::Sphere { .. } | Solid::Cylinder { .. } | Solid::Cone { .. } => false,
     };
-    primitives.iter().filter(|primitive| is_turned(&primitive.solid)).count()
+    primitives.iter().filter(|primitive| is_rotated(&primitive.solid)).count()
 }
 
 #[cfg(test)]
@@ -103,7 +103,7 @@ mod tests {
     fn outside_by_is_a_distance_before_a_face_and_negative_inside() {
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let sphere = Solid::Sphere { center: DVec3::X, radius: 2.0 };
-        let turned = Solid::Box {
+        let rotated = Solid::Box {
             center: DVec3::ZERO,
             half_size: DVec3::new(1.0, 2.0, 3.0),
             rotation_degrees: DVec3::new(0.0, 0.0, 90.0),
@@ -114,8 +114,8 @@ mod tests {
         let cases = [
             (&sphere, DVec3::X * 5.0, 2.0),
             (&sphere, DVec3::X, -2.0),
-            (&turned, DVec3::X * 5.0, 3.0),
-            (&turned, DVec3::Z, -1.0),
+            (&rotated, DVec3::X * 5.0, 3.0),
+            (&rotated, DVec3::Z, -1.0),
             (&cylinder, DVec3::new(0.0, 7.0, 0.5), 3.0),
             (&cylinder, DVec3::new(3.0, 2.0, 0.0), 2.0),
             (&cylinder, DVec3::Y * 2.0, -1.0),

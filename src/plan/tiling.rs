@@ -45,7 +45,7 @@ mod tests {
         assert_eq!(tile_side(1024, 100, 1, 20), 256);
         assert_eq!(tile_side(1024, 100, 1, 1000), 64);
         assert_eq!(tile_side(7, 100, 1, 1000), 7);
-        assert_eq!(tile_side(1024, 128, 1, 20), 192, "whole workgroups of eight pixels in turn");
+        assert_eq!(tile_side(1024, 128, 1, 20), 192, "whole workgroups of eight pixels per invocation");
     }
 
     #[test]

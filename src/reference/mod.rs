@@ -1,4 +1,4 @@
-//! The truth that the kernels are measured against: the accurate model (DESIGN.md) in plain `f64` on the CPU.
+//! The truth that the kernels are measured against: the accurate model (docs/light-model.md) in plain `f64` on the CPU.
 //!
 //! Ray–solid intersections are solved in double-double and rounded once, so that a hit is that of the stored ray and
 //! the stored solid; directions, normals and shading are `f64`. Nothing here is shared with the kernels.
@@ -14,7 +14,7 @@ mod shade;
 
 pub use camera::PrimaryRays;
 pub use nearest::Solids;
-pub use ray::{Departure, Face, Hit, Ray, Side};
+pub use ray::{Face, Hit, OriginSurface, Ray, Side};
 pub use shade::World;
 
 use std::ops::ControlFlow;
@@ -30,14 +30,14 @@ use crate::scene::Scene;
 pub const BACKGROUND: u32 = u32::MAX;
 
 /// [`Pixel::first_hit`] of a primary ray that saw a light's ball.
-pub const LIGHT_BALL: u32 = u32::MAX - 1;
+pub const LIGHT_SPHERE: u32 = u32::MAX - 1;
 
 /// What one primary ray saw.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pixel {
     /// Linear RGB, not limited to 1, but finite: what overflows an `f64` is clamped to its largest value.
     pub color: DVec3,
-    /// Index into `Scene::primitives`, or [`BACKGROUND`], or [`LIGHT_BALL`].
+    /// Index into `Scene::primitives`, or [`BACKGROUND`], or [`LIGHT_SPHERE`].
     pub first_hit: u32,
     /// A hash of everything discrete on the ray's way through all generations: primitives, faces, sides, and the
     /// lights that reach them. Neighbours that differ in it lie across a discontinuity.

@@ -1,7 +1,7 @@
 use glam::DVec3;
 
 use super::intersect::{Origin, PreparedSolid};
-use super::ray::{Departure, Hit, Ray, Side};
+use super::ray::{Hit, OriginSurface, Ray, Side};
 use crate::scene::Primitive;
 
 /// A scene's solids, ready to be met by rays; every one is tested against every ray.
@@ -20,13 +20,13 @@ impl Solids {
 
     /// The nearest hit ahead of the ray's origin; a tie goes to the lowest index. A direction of length 0 or a ray that
     /// is not finite meets nothing.
-    pub fn nearest(&self, ray: &Ray, departure: Departure) -> Option<Hit> {
+    pub fn nearest(&self, ray: &Ray, origin_surface: OriginSurface) -> Option<Hit> {
         let direction_squared = ray.direction.length_squared();
         if !(direction_squared > 0.0 && direction_squared.is_finite() && ray.origin.is_finite()) {
             return None;
         }
         let mut nearest: Option<Hit> = None;
-        for (primitive, solid, origin) in self.reachable(departure) {
+        for (primitive, solid, origin) in self.reachable(origin_surface) {
             let Some(hit) = solid.first_hit(ray, origin) else { continue };
             if hit.t < nearest.map_or(f64::INFINITY, |nearest| nearest.t) {
                 let (t, point, normal) = (hit.t, hit.point, hit.normal);
@@ -41,21 +41,21 @@ impl Solids {
         self.0[hit.primitive as usize].height_above(hit.face, hit.side, place)
     }
 
-    /// Whether a solid lies between a point and a light; `departure` is the point's.
-    pub fn hide(&self, light_position: DVec3, point: DVec3, departure: Departure) -> bool {
+    /// Whether a solid lies between a point and a light; `origin_surface` is the point's.
+    pub fn hide(&self, light_position: DVec3, point: DVec3, origin_surface: OriginSurface) -> bool {
         let ray = Ray { origin: point, direction: light_position - point };
-        self.reachable(departure).any(|(_, solid, origin)| solid.hides(light_position, &ray, origin))
+        self.reachable(origin_surface).any(|(_, solid, origin)| solid.hides(light_position, &ray, origin))
     }
 
     /// The solids that a ray can meet at all, with what its origin is to each.
-    fn reachable(&self, departure: Departure) -> impl Iterator<Item = (u32, &PreparedSolid, Origin)> {
+    fn reachable(&self, origin_surface: OriginSurface) -> impl Iterator<Item = (u32, &PreparedSolid, Origin)> {
         (0u32..).zip(&self.0).filter_map(move |(index, solid)| {
-            let origin = match departure {
-                Departure::Free => Origin::Free,
-                Departure::Surface { primitive, .. } if primitive != index => Origin::OtherSurface,
+            let origin = match origin_surface {
+                OriginSurface::Free => Origin::Free,
+                OriginSurface::Surface { primitive, .. } if primitive != index => Origin::OtherSurface,
                 // A convex solid lies on one side of every tangent plane.
-                Departure::Surface { side: Side::Outside, .. } => return None,
-                Departure::Surface { side: Side::Inside, face, .. } => Origin::OwnInside(face),
+                OriginSurface::Surface { side: Side::Outside, .. } => return None,
+                OriginSurface::Surface { side: Side::Inside, face, .. } => Origin::OwnInside(face),
             };
             Some((index, solid, origin))
         })

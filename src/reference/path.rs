@@ -31,7 +31,7 @@ impl Path {
         self.add(3, 0);
     }
 
-    pub fn add_light_ball(&mut self, light: u32) {
+    pub fn add_light_sphere(&mut self, light: u32) {
         self.add(4, light);
     }
 

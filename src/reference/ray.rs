@@ -44,14 +44,14 @@ pub struct Hit {
 
 impl Hit {
     /// How a reflected or a shadow ray leaves this hit.
-    pub fn departure(&self) -> Departure {
-        Departure::Surface { primitive: self.primitive, face: self.face, side: self.side }
+    pub fn origin_surface(&self) -> OriginSurface {
+        OriginSurface::Surface { primitive: self.primitive, face: self.face, side: self.side }
     }
 }
 
 /// What is known of a ray's origin.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Departure {
+pub enum OriginSurface {
     /// A point in space, taken as stored.
     Free,
     /// A point computed to lie on a primitive, from which the ray leaves to this side: a convex solid cannot be met

@@ -1,12 +1,12 @@
-//! Equation 1.19 of the course work without refraction (DESIGN.md, «The accurate model»).
+//! Equation 1.19 of the course work without refraction (docs/light-model.md, «The accurate model»).
 
 use glam::DVec3;
 
 use super::camera::unit;
 use super::nearest::Solids;
 use super::path::Path;
-use super::ray::{Departure, Hit, Ray, Side};
-use super::{BACKGROUND, LIGHT_BALL, Pixel};
+use super::ray::{Hit, OriginSurface, Ray, Side};
+use super::{BACKGROUND, LIGHT_SPHERE, Pixel};
 use crate::scene::{BoundingSphere, Light, Material, Primitive, Scene, Solid};
 
 /// A scene ready to be looked at along any ray.
@@ -17,7 +17,7 @@ pub struct World<'a> {
     solids: Solids,
     light_positions: Vec<DVec3>,
     /// One for each light, in order; none where nothing of it is seen.
-    light_balls: Vec<Option<Solids>>,
+    light_spheres: Vec<Option<Solids>>,
 }
 
 impl<'a> World<'a> {
@@ -29,31 +29,31 @@ impl<'a> World<'a> {
             origin,
             solids: Solids::about(origin, &scene.primitives),
             light_positions: scene.lights.iter().map(|light| light.position - origin).collect(),
-            light_balls: scene.lights.iter().map(ball).collect(),
+            light_spheres: scene.lights.iter().map(ball).collect(),
         }
     }
 
     /// The nearest hit of a ray on the scene's primitives, both in the world frame.
-    pub fn nearest(&self, ray: &Ray, departure: Departure) -> Option<Hit> {
-        let hit = self.solids.nearest(&Ray { origin: ray.origin - self.origin, ..*ray }, departure)?;
+    pub fn nearest(&self, ray: &Ray, origin_surface: OriginSurface) -> Option<Hit> {
+        let hit = self.solids.nearest(&Ray { origin: ray.origin - self.origin, ..*ray }, origin_surface)?;
         Some(Hit { point: hit.point + self.origin, ..hit })
     }
 
     /// What a primary ray of unit direction sees.
     pub fn look_along(&self, primary: Ray) -> Pixel {
         let mut ray = Ray { origin: primary.origin - self.origin, ..primary };
-        let mut departure = Departure::Free;
+        let mut origin_surface = OriginSurface::Free;
         let mut weight = 1.0;
         let mut color = DVec3::ZERO;
         let mut first_hit = BACKGROUND;
         let mut path = Path::default();
         for generation in 0..self.scene.max_depth {
-            let hit = self.solids.nearest(&ray, departure);
+            let hit = self.solids.nearest(&ray, origin_surface);
             if generation == 0 {
-                if let Some(light) = self.light_ball_before(&ray, hit.as_ref()) {
+                if let Some(light) = self.light_sphere_before(&ray, hit.as_ref()) {
                     let color = finite(self.scene.lights[light as usize].intensity);
-                    path.add_light_ball(light);
-                    return Pixel { color, first_hit: LIGHT_BALL, path: path.signature() };
+                    path.add_light_sphere(light);
+                    return Pixel { color, first_hit: LIGHT_SPHERE, path: path.signature() };
                 }
                 first_hit = hit.map_or(BACKGROUND, |hit| hit.primitive);
             }
@@ -64,19 +64,19 @@ impl<'a> World<'a> {
             };
             path.add_hit(&hit);
             let material = &self.scene.primitives[hit.primitive as usize].material;
-            color = finite(color + weight * self.emitted(&hit, ray.direction, material, &mut path));
+            color = finite(color + weight * self.local_radiance(&hit, ray.direction, material, &mut path));
             weight *= material.specular;
             if weight == 0.0 {
                 break;
             }
             ray = Ray { origin: hit.point, direction: unit(reflected(ray.direction, hit.normal)) };
-            departure = hit.departure();
+            origin_surface = hit.origin_surface();
         }
         Pixel { color, first_hit, path: path.signature() }
     }
 
     /// E of the model: what a hit sends back along the ray without reflections, linear RGB.
-    fn emitted(&self, hit: &Hit, ray_direction: DVec3, material: &Material, path: &mut Path) -> DVec3 {
+    fn local_radiance(&self, hit: &Hit, ray_direction: DVec3, material: &Material, path: &mut Path) -> DVec3 {
         let mut sum = material.ambient * material.color;
         for (light, &position) in self.scene.lights.iter().zip(&self.light_positions) {
             // NaN for a light at the hit point, which therefore gives nothing.
@@ -84,7 +84,7 @@ impl<'a> World<'a> {
             let cosine = hit.normal.dot(to_light);
             // Of a rounded point, a light in a face's plane is now on this side of it and now on that.
             let faces = self.solids.height_above(hit, position).is_none_or(|height| height > 0.0);
-            let lit = faces && cosine > 0.0 && !self.solids.hide(position, hit.point, hit.departure());
+            let lit = faces && cosine > 0.0 && !self.solids.hide(position, hit.point, hit.origin_surface());
             path.add_light(lit);
             if lit {
                 let mirrored_light = reflected(-to_light, hit.normal);
@@ -97,13 +97,13 @@ impl<'a> World<'a> {
     }
 
     /// The light whose ball is nearer than any primitive, and seen from outside.
-    fn light_ball_before(&self, ray: &Ray, hit: Option<&Hit>) -> Option<u32> {
+    fn light_sphere_before(&self, ray: &Ray, hit: Option<&Hit>) -> Option<u32> {
         let entry = |ball: &Option<Solids>| {
-            let entry = ball.as_ref()?.nearest(ray, Departure::Free)?;
+            let entry = ball.as_ref()?.nearest(ray, OriginSurface::Free)?;
             (entry.side == Side::Outside).then_some(entry.t)
         };
-        let balls = (0u32..).zip(&self.light_balls).filter_map(|(light, ball)| Some((light, entry(ball)?)));
-        let (light, t) = balls.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
+        let light_spheres = (0u32..).zip(&self.light_spheres).filter_map(|(light, ball)| Some((light, entry(ball)?)));
+        let (light, t) = light_spheres.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
         hit.is_none_or(|hit| t < hit.t).then_some(light)
     }
 }

@@ -4,7 +4,7 @@
 //! that way. From an anchor nearby, a sphere's surface is offset + slope·x + |x|²/(2·radius) = 0, whose terms are all as
 //! small as x; and so is a cylinder's, across its axis.
 //!
-//! Kernel frame, the camera at its origin. Anchors are points in `f32`, so that rounding takes nothing from them; the rest
+//! Scene space, the camera at its origin. Anchors are points in `f32`, so that rounding takes nothing from them; the rest
 //! is computed for them in `f64`.
 
 use glam::{DMat3, DVec3};

@@ -10,10 +10,10 @@ mod edit;
 mod error;
 mod file;
 pub mod gallery;
-mod kernel_frame;
 mod light;
 mod material;
 mod primitive;
+mod scene_space;
 mod text;
 mod validate;
 
@@ -22,11 +22,11 @@ pub use camera::{Camera, Projection};
 pub(crate) use close_up::{BoxNearby, Curve, CylinderNearby, SphereNearby};
 pub use edit::{COURSE_PRIMITIVE_LIMIT, TooManyPrimitives, world_from_box};
 pub use error::SceneError;
-pub use kernel_frame::KernelFrame;
-pub(crate) use kernel_frame::{Extent, two_sum};
 pub use light::Light;
 pub use material::Material;
 pub use primitive::{Primitive, Solid, SolidKind};
+pub use scene_space::SceneSpace;
+pub(crate) use scene_space::{Extent, two_sum};
 pub use validate::{DEPTH_LIMIT, LIGHT_LIMIT, PRIMITIVE_LIMIT};
 
 use glam::DVec3;

@@ -243,7 +243,7 @@ mod tests {
         for kernel in [Kernel::Plain, Kernel::Whitted] {
             let cut = drawing(Setting { kernel, precision: Some(Precision::F32), error: 0.01, ..Setting::default() });
             assert!(cut.error_bound > 0.0 && cut.error_bound <= 0.01);
-            assert_ne!(cut.settings.cuts, exact.settings.cuts);
+            assert_ne!(cut.settings.approximations, exact.settings.approximations);
             assert_eq!(cut.settings.kernel == tracer::Kernel::Plain, kernel == Kernel::Plain);
         }
         let course = drawing(Setting { kernel: Kernel::Course, max_depth: Some(3), ..Setting::default() });

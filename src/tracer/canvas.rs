@@ -14,7 +14,7 @@ use super::sampling::Sampling;
 use super::{Kernel, TracerError, Work};
 use crate::gpu::{Builds, Device, GpuError, InFlight, Recorder, Resource, Shader, Use};
 use crate::scene::Scene;
-use images::{Enlarging, Image, images};
+use images::{Image, Upscaling, images};
 pub use timing::Finished;
 use timing::{Chunk, Timing};
 
@@ -40,7 +40,7 @@ pub struct Canvas {
     pixels: Option<Resource>,
     shown: usize,
     /// Where the images are smaller than the picture.
-    enlarging: Option<Enlarging>,
+    upscaling: Option<Upscaling>,
     size: [u32; 2],
     sampling: Sampling,
     work: Work,
@@ -74,7 +74,7 @@ impl Canvas {
             kind,
             builds: builds.clone(),
             shown: 0,
-            enlarging: None,
+            upscaling: None,
             size,
             sampling: Sampling::PLAIN,
             work: Work::WHOLE,
@@ -101,9 +101,9 @@ impl Canvas {
         self.size
     }
 
-    /// The picture to look at, once it is [enlarged](Canvas::enlarge).
+    /// The picture to look at, once it is [upscaled](Canvas::upscale).
     pub fn picture(&self) -> &Resource {
-        self.enlarging.as_ref().map_or(&self.images[self.shown].resource, |enlarging| &enlarging.picture)
+        self.upscaling.as_ref().map_or(&self.images[self.shown].resource, |upscaling| &upscaling.picture)
     }
 
     /// A kernel from the next chunk on; where it is another one, which is told, the picture is to be
@@ -189,8 +189,8 @@ impl Canvas {
     fn remake(&mut self, in_flight: &mut InFlight, size: [u32; 2], sampling: Sampling) -> Result<(), TracerError> {
         let traced_size = sampling.traced_size(size);
         let images = images(&self.device, traced_size)?;
-        let enlarging = match sampling.scale < 1.0 {
-            true => Some(Enlarging::new(&self.device, size, traced_size, &images)?),
+        let upscaling = match sampling.scale < 1.0 {
+            true => Some(Upscaling::new(&self.device, size, traced_size, &images)?),
             false => None,
         };
         for old in std::mem::replace(&mut self.images, images) {
@@ -199,7 +199,7 @@ impl Canvas {
         if let Some(old) = self.pixels.take() {
             in_flight.forget(&old);
         }
-        if let Some(old) = std::mem::replace(&mut self.enlarging, enlarging) {
+        if let Some(old) = std::mem::replace(&mut self.upscaling, upscaling) {
             in_flight.forget(&old.picture);
         }
         (self.size, self.sampling) = (size, sampling);
@@ -327,11 +327,11 @@ impl Canvas {
             if is_last {
                 self.shown = target;
             }
-            if let Some(enlarging) = self.enlarging.as_mut().filter(|_| target == self.shown) {
-                enlarging.is_current = false;
+            if let Some(upscaling) = self.upscaling.as_mut().filter(|_| target == self.shown) {
+                upscaling.is_current = false;
                 if is_last {
                     // What it takes is part of the picture's time.
-                    enlarging.bring_up_to_date(recorder, &self.images, self.shown);
+                    upscaling.bring_up_to_date(recorder, &self.images, self.shown);
                 }
             }
             timer.iter().for_each(|timer| recorder.stop(timer));
@@ -345,9 +345,9 @@ impl Canvas {
 
     /// Brings the picture shown up to date where it is traced at a smaller size. To be recorded before it is looked at,
     /// after the [chunk](Canvas::record).
-    pub fn enlarge(&mut self, recorder: &mut Recorder) {
-        if let Some(enlarging) = &mut self.enlarging {
-            enlarging.bring_up_to_date(recorder, &self.images, self.shown);
+    pub fn upscale(&mut self, recorder: &mut Recorder) {
+        if let Some(upscaling) = &mut self.upscaling {
+            upscaling.bring_up_to_date(recorder, &self.images, self.shown);
         }
     }
 

@@ -6,7 +6,7 @@ use bytemuck::NoUninit;
 
 use super::TracerError;
 use super::parts::Part;
-use super::records::{FrameRecord, PrimitiveRecords};
+use super::records::{CoursePushConstants, PrimitiveRecords};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, Dispatch, GpuError, PipelineDescription,
     Recorder, Resource, Shader, Use,
@@ -27,7 +27,7 @@ pub const WORKGROUP: [u32; 2] = [8, 8];
 /// A scene as the kernel takes it.
 #[derive(Debug, PartialEq)]
 pub(super) struct CourseScene {
-    pub frame: FrameRecord,
+    pub frame: CoursePushConstants,
     pub primitives: PrimitiveRecords,
 }
 
@@ -57,7 +57,10 @@ impl CourseScene {
             )));
         }
         let primitives = PrimitiveRecords::of(scene);
-        Ok(Self { frame: FrameRecord::new(scene, light, primitives.counts(), max_depth, width, height), primitives })
+        Ok(Self {
+            frame: CoursePushConstants::new(scene, light, primitives.counts(), max_depth, width, height),
+            primitives,
+        })
     }
 }
 
@@ -83,7 +86,7 @@ impl CourseKernel {
         let description = PipelineDescription {
             shader,
             bindings: &BINDINGS,
-            push_constant_bytes: size_of::<FrameRecord>() as u32,
+            push_constant_bytes: size_of::<CoursePushConstants>() as u32,
             constants: &[max_depth, workgroup[0], workgroup[1]],
         };
         let pipeline = ComputePipeline::new(device, &description)?;
@@ -126,7 +129,7 @@ impl CourseKernel {
     }
 
     /// Traces these parts of the picture.
-    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, frame: &FrameRecord, parts: &[Part]) {
+    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, frame: &CoursePushConstants, parts: &[Part]) {
         let parts: Vec<_> = parts.iter().map(|part| Dispatch::flat(&self.pipeline, part.first, part.groups)).collect();
         recorder.dispatch_parts(set, bytemuck::bytes_of(frame), &parts);
     }

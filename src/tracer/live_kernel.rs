@@ -130,7 +130,7 @@ impl LiveKernel {
             (Self::Whitted(live), State::Whitted(state)) => {
                 if let Some(pipeline) = live.pipeline() {
                     let parts = in_workgroups(parts, pipeline.pixels);
-                    pipeline.record(recorder, set, &state.scene.shot, sample, &parts);
+                    pipeline.record(recorder, set, &state.scene.view_uniforms, sample, &parts);
                 }
             }
             (Self::Course(_) | Self::Whitted(_), _) => {}

@@ -14,8 +14,8 @@ use super::whitted_pipeline::{WhittedPipeline, shader_of};
 use super::whitted_records::{SolidRecords, WhittedRecords};
 use super::{Kernel, TracerError, Work};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Texel, Use};
-use crate::plan::{self, Crowd, Precision};
-use crate::scene::{Extent, KernelFrame, Primitive, Scene};
+use crate::plan::{self, Precision, TraversalCost};
+use crate::scene::{Extent, Primitive, Scene, SceneSpace};
 
 /// The kernel with the state that it began last.
 pub(super) struct LiveWhitted {
@@ -38,12 +38,12 @@ struct OnDevice {
 struct Primitives {
     list: Vec<Primitive>,
     extent: Extent,
-    crowd: Crowd,
+    cost: TraversalCost,
 }
 
 impl Primitives {
     fn of(primitives: &[Primitive]) -> Self {
-        Self { list: primitives.to_vec(), extent: Extent::of(primitives), crowd: Crowd::of(primitives) }
+        Self { list: primitives.to_vec(), extent: Extent::of(primitives), cost: TraversalCost::of(primitives) }
     }
 }
 
@@ -98,7 +98,7 @@ impl LiveWhitted {
             same.map_or_else(|| Arc::new(Primitives::of(&scene.primitives)), |begun| begun.primitives.clone());
         let is_close_up = self.kernel == Kernel::Whitted(precision) && plan::is_close_up(scene, precision);
         let frame =
-            if is_close_up { KernelFrame::close_up(scene) } else { primitives.extent.frame(scene.camera.position) };
+            if is_close_up { SceneSpace::close_up(scene) } else { primitives.extent.frame(scene.camera.position) };
         let last = self.begun.as_ref().map(|begun| &begun.records.solids).filter(|solids| solids.frame == frame);
         let solids = match last {
             Some(solids) if same.is_some() => solids.clone(),
@@ -107,9 +107,10 @@ impl LiveWhitted {
         let records = WhittedRecords::with(scene, solids, precision, size);
         let max_depth = work.max_depth.unwrap_or(scene.max_depth);
         // Of what a window shows, nothing is traced again that took too long.
-        let pixels = primitives.crowd.pixels_in_turn(scene.lights.len(), max_depth, 1);
-        let scene = WhittedScene::with(&self.device, scene, records, self.kernel, work.cuts, max_depth, size)?;
-        let scene = scene.in_turn(pixels);
+        let pixels = primitives.cost.pixels_per_invocation(scene.lights.len(), max_depth, 1);
+        let scene =
+            WhittedScene::with(&self.device, scene, records, self.kernel, work.approximations, max_depth, size)?;
+        let scene = scene.with_pixels_per_invocation(pixels);
         let scene = if work.without_boxes { scene.without_boxes() } else { scene };
         check_picture(self.device.description(), sampling.traced_size(size))?;
         Ok(WhittedState { scene: scene.sampled(sampling, size), primitives })
@@ -185,10 +186,10 @@ fn differing(old: &WhittedRecords, new: &WhittedRecords, precision: Precision) -
     if Arc::ptr_eq(&old.solids, &new.solids) {
         return Some(vec![view]);
     }
-    let outlines = &new.solids.outlines;
-    let part = |run: Range<usize>| (run.start as u64 * Texel::BYTES, bytemuck::cast_slice(&outlines[run]).to_vec());
-    let outlines = runs(&old.solids.outlines, outlines)?.into_iter().map(part).collect();
-    let mut update: Vec<Parts> = vec![view, outlines];
+    let proxies = &new.solids.proxies;
+    let part = |run: Range<usize>| (run.start as u64 * Texel::BYTES, bytemuck::cast_slice(&proxies[run]).to_vec());
+    let proxies = runs(&old.solids.proxies, proxies)?.into_iter().map(part).collect();
+    let mut update: Vec<Parts> = vec![view, proxies];
     for ((_, old), (_, new)) in old_rows.into_iter().zip(new_rows) {
         let part =
             |run: Range<usize>| (run.start as u64 * precision.row_bytes(), precision.bytes(new[run].as_flattened()));

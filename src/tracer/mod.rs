@@ -3,14 +3,13 @@
 mod canvas;
 mod chunks;
 mod course;
-mod enlarge;
 pub mod hierarchy;
 mod live_kernel;
 mod live_whitted;
-mod outlines;
 mod parts;
 mod pixels;
 pub mod probe;
+mod proxies;
 mod records;
 mod requirements;
 pub mod sampling;
@@ -18,6 +17,7 @@ mod scene_kernel;
 mod settings;
 mod target;
 mod tiles;
+mod upscale;
 mod whitted;
 mod whitted_pipeline;
 mod whitted_records;
@@ -29,23 +29,24 @@ use glam::DVec3;
 
 pub use canvas::Canvas;
 pub use course::{BINDINGS, MAX_PRIMITIVES, WORKGROUP, upload};
-pub use outlines::bounds;
+pub use proxies::bounds;
 pub use records::{
-    BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MaterialRecord, PrimitiveRecords, SphereRecord,
+    BoxRecord, ConeRecord, CoursePushConstants, CylinderRecord, LightRecord, MaterialRecord, PrimitiveRecords,
+    SphereRecord,
 };
 
 pub use crate::plan::Precision;
 pub use requirements::Requirements;
 pub use settings::{Kernel, Settings, Work};
-pub use whitted::{check_precision, kernel_frame, scene_bindings, upload_scene};
-pub use whitted_records::{SolidRecords, WhittedFrame, WhittedRecords};
+pub use whitted::{check_precision, scene_bindings, scene_space, upload_scene};
+pub use whitted_records::{SolidRecords, WhittedPushConstants, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};
 use crate::gpu::{BindingSet, Commands, Device, DeviceDescription, GpuError, Recorder, Texel, Timer, Use};
 use crate::plan::Limits;
 use crate::scene::Scene;
 use scene_kernel::SceneKernel;
-use target::{Enlarging, Target};
+use target::{Target, Upscaling};
 use tiles::Tile;
 
 /// Why there is no frame. Each is one line.
@@ -60,7 +61,7 @@ pub enum TracerError {
         "device '{device}' gave up on {pixels} pixels, as Mesa's CPU drivers do where a pixel takes more than 65535 turns \
          of loops; fewer primitives or generations are needed there"
     )]
-    GaveUp { device: String, pixels: usize },
+    LoopLimitReached { device: String, pixels: usize },
     #[error(transparent)]
     Gpu(#[from] GpuError),
     #[error(transparent)]
@@ -72,7 +73,7 @@ impl TracerError {
     pub fn is_input_error(&self) -> bool {
         match self {
             Self::Refused(_) => true,
-            Self::Stopped | Self::GaveUp { .. } => false,
+            Self::Stopped | Self::LoopLimitReached { .. } => false,
             Self::Gpu(error) => error.is_input_error(),
             Self::Frame(error) => error.is_input_error(),
         }
@@ -81,7 +82,7 @@ impl TracerError {
 
 /// What a plan needs to know of a device.
 pub fn limits_of(device: &DeviceDescription) -> Limits {
-    let &DeviceDescription { float64, max_texels, max_image_side, octets: packets, .. } = device;
+    let &DeviceDescription { float64, max_texels, max_image_side, packets, .. } = device;
     Limits { float64, max_array_bytes: max_texels * Texel::BYTES, max_image_side, packets }
 }
 
@@ -128,13 +129,13 @@ impl Tracer {
     ///
     /// # Panics
     /// The settings have another size.
-    pub fn take_up(&mut self, scene: &Scene, settings: &Settings) -> Result<(), TracerError> {
+    pub fn set_scene(&mut self, scene: &Scene, settings: &Settings) -> Result<(), TracerError> {
         let &Settings { width, height, max_depth, .. } = settings;
         assert_eq!((width, height), (self.width, self.height), "the settings are of another size");
         settings.sampling().check()?;
         let max_depth = max_depth.unwrap_or(scene.max_depth);
-        self.kernel.take_up(&self.device, scene, settings, max_depth)?;
-        self.target.take_up(&self.device, &self.kernel, scene, settings, max_depth)?;
+        self.kernel.set_scene(&self.device, scene, settings, max_depth)?;
+        self.target.set_scene(&self.device, &self.kernel, scene, settings, max_depth)?;
         self.set = self.kernel.bind(&self.target.traced)?;
         self.samples = settings.samples;
         Ok(())
@@ -164,7 +165,7 @@ impl Tracer {
             let mut progress = |done| progress(pixels_done + tile_pixels * u64::from(done) / samples);
             let time_ns = match self.draw_tile(tile, frame, &mut progress) {
                 // How long pixels take in company is an estimate.
-                Err(TracerError::GaveUp { .. }) if self.trace_one_by_one()? => {
+                Err(TracerError::LoopLimitReached { .. }) if self.trace_one_by_one()? => {
                     self.draw_tile(tile, frame, &mut progress)?
                 }
                 drawn => drawn?,
@@ -213,7 +214,7 @@ impl Tracer {
         let given_up = written.iter().filter(|[.., alpha]| *alpha != self.samples as f32).count();
         if given_up > 0 {
             let device = self.device.description().name.clone();
-            return Err(TracerError::GaveUp { device, pixels: given_up });
+            return Err(TracerError::LoopLimitReached { device, pixels: given_up });
         }
         tile.copy_pixels(pixels, frame);
         Ok(())
@@ -225,7 +226,7 @@ impl Tracer {
     /// # Panics
     /// The picture is not of one sample a pixel at scale 1: means and what lies between pixels are rounded besides.
     pub fn draw_remainder(&mut self, remainder: bool) {
-        assert!(self.samples == 1 && self.target.enlarging.is_none(), "only of one sample a pixel at scale 1");
+        assert!(self.samples == 1 && self.target.upscaling.is_none(), "only of one sample a pixel at scale 1");
         self.kernel.write_remainder(remainder);
     }
 
@@ -251,11 +252,11 @@ impl Tracer {
     }
 
     /// Traces one sample of each pixel of a tile and, with the last one, copies the tile to where the host reads it;
-    /// returns the GPU time of the tracing, and of the enlarging where there is any.
+    /// returns the GPU time of the tracing, and of the upscaling where there is any.
     fn trace(&mut self, tile: Tile, sample: u32) -> Result<Option<u64>, GpuError> {
         let Self { kernel, set, target, timer, commands, samples, .. } = self;
-        let Target { traced, enlarging, read_back, .. } = target;
-        let traced_tile = enlarging.as_ref().map_or(tile, |enlarging| enlarging.enlarger.traced_tile(tile));
+        let Target { traced, upscaling, read_back, .. } = target;
+        let traced_tile = upscaling.as_ref().map_or(tile, |upscaling| upscaling.upscaler.traced_tile(tile));
         let is_last = sample + 1 == *samples;
         let record = |recorder: &mut Recorder| {
             if sample == 0 {
@@ -267,11 +268,11 @@ impl Tracer {
                 recorder.make_ready(traced, Use::ShaderWrite);
                 timer.iter().for_each(|timer| recorder.start(timer));
                 kernel.record(recorder, set, traced_tile, sample);
-                if let Some(Enlarging { enlarger, set, source, picture }) = enlarging.as_ref().filter(|_| is_last) {
+                if let Some(Upscaling { upscaler, set, source, picture }) = upscaling.as_ref().filter(|_| is_last) {
                     recorder.make_ready(traced, Use::CopySource);
                     recorder.make_ready(source, Use::CopyTarget);
                     recorder.copy_to_image(traced, source, traced_tile.width, traced_tile.height);
-                    enlarger.record(recorder, set, [picture, source], tile);
+                    upscaler.record(recorder, set, [picture, source], tile);
                 }
                 timer.iter().for_each(|timer| recorder.stop(timer));
                 Ok(())
@@ -279,7 +280,7 @@ impl Tracer {
             if !is_last {
                 return Ok(());
             }
-            let picture = enlarging.as_ref().map_or(&*traced, |enlarging| &enlarging.picture);
+            let picture = upscaling.as_ref().map_or(&*traced, |upscaling| &upscaling.picture);
             recorder.labelled("read back", |recorder| {
                 recorder.make_ready(picture, Use::CopySource);
                 recorder.make_ready(read_back, Use::CopyTarget);

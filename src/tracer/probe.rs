@@ -6,10 +6,10 @@ use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
 
 use super::course::upload;
-use super::records::{FrameRecord, PrimitiveRecords};
+use super::records::{CoursePushConstants, PrimitiveRecords};
 use super::requirements::Requirements;
 use super::whitted::{scene_bindings, upload_scene};
-use super::whitted_records::{WhittedFrame, WhittedRecords};
+use super::whitted_records::{WhittedPushConstants, WhittedRecords};
 use super::{Kernel, TracerError, check_precision};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, Device, PipelineDescription, Resource, Use,
@@ -17,7 +17,7 @@ use crate::gpu::{
 };
 use crate::plan::Precision;
 use crate::reference::{Face, Side};
-use crate::scene::{KernelFrame, Light, Primitive, Scene, Solid, farthest_coordinate};
+use crate::scene::{Light, Primitive, Scene, SceneSpace, Solid, farthest_coordinate};
 
 /// What is known of a probed ray's origin. The course kernel knows nothing of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -86,7 +86,7 @@ impl Probe {
                 &PipelineDescription {
                     shader: &shaders::PROBE_COURSE_RAYS,
                     bindings: &COURSE_BINDINGS,
-                    push_constant_bytes: size_of::<FrameRecord>() as u32,
+                    push_constant_bytes: size_of::<CoursePushConstants>() as u32,
                     constants: &[],
                 },
             )?,
@@ -104,7 +104,7 @@ impl Probe {
                         Kernel::Plain | Kernel::Course => &shaders::PROBE_RAYS_PLAIN,
                     },
                     bindings: &bindings,
-                    push_constant_bytes: size_of::<WhittedFrame>() as u32,
+                    push_constant_bytes: size_of::<WhittedPushConstants>() as u32,
                     constants: &requirements.constants(device, precision, [64, 1])?,
                 };
                 ComputePipeline::new(device, &description)?
@@ -129,8 +129,8 @@ impl Probe {
         let farthest_origin = rays.iter().map(|ray| ray.origin.abs().max_element()).fold(0.0, f64::max);
         let scene = scene_of(solids);
         let reach = (farthest_coordinate(&scene.primitives, DVec3::ZERO).max(farthest_origin) / 2.0) as f32;
-        let kernel_frame = KernelFrame::world(reach.next_up());
-        let records = WhittedRecords::of(&scene, kernel_frame, precision, [1, 1]);
+        let scene_space = SceneSpace::world(reach.next_up());
+        let records = WhittedRecords::of(&scene, scene_space, precision, [1, 1]);
         assert_eq!(
             records.solids.counts.iter().sum::<u32>() as usize,
             solids.len(),
@@ -138,17 +138,17 @@ impl Probe {
         );
         let rows: Vec<[[f64; 4]; ROWS]> =
             rays.iter().map(|ray| ray_rows(ray, records.solids.slots[ray.solid])).collect();
-        let frame = WhittedFrame {
+        let frame = WhittedPushConstants {
             counts: records.solids.counts,
-            first_outlines: records.solids.first_outlines,
+            first_proxies: records.solids.first_proxies,
             tile_origin: 0,
             image_size: 0,
             depth: 1,
             light_count: 0,
-            reach: kernel_frame.reach,
+            reach: scene_space.reach,
             writes_remainder: 0,
-            least_weight: 0.0,
-            least_shadowed: 0.0,
+            min_throughput: 0.0,
+            min_shadowed: 0.0,
             sample_place: [0, 0],
             samples_before: 0,
             sample_weight: 1.0,
@@ -175,7 +175,7 @@ impl Probe {
                 continue;
             }
             // In place of the depth, the kernel reads how many rays there are.
-            let frame = FrameRecord::new(&scene, &Light::default(), records.counts(), own.len() as u32, 1, 1);
+            let frame = CoursePushConstants::new(&scene, &Light::default(), records.counts(), own.len() as u32, 1, 1);
             let rows: Vec<[f32; 4 * COURSE_ROWS]> = own
                 .iter()
                 .map(|(_, ray)| {
@@ -235,7 +235,7 @@ fn floats(bytes: &[u8]) -> Vec<f64> {
 }
 
 fn ray_rows(ray: &ProbeRay, slot: u32) -> [[f64; 4]; ROWS] {
-    let (departure, face, side) = match ray.from {
+    let (origin_surface, face, side) = match ray.from {
         From::Space => (-1.0, Face::Curved, Side::Outside),
         From::Own(face, side) => (0.0, face, side),
         From::Another => (1.0, Face::Curved, Side::Outside),
@@ -249,7 +249,7 @@ fn ray_rows(ray: &ProbeRay, slot: u32) -> [[f64; 4]; ROWS] {
     let inside = f64::from(u8::from(side == Side::Inside));
     [
         ray.origin.extend(f64::from(slot)).to_array(),
-        ray.direction.extend(departure).to_array(),
+        ray.direction.extend(origin_surface).to_array(),
         [face.into(), inside, 0.0, 0.0],
     ]
 }

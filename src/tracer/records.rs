@@ -73,7 +73,7 @@ pub struct LightRecord {
 /// `Frame`: the push constants.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct FrameRecord {
+pub struct CoursePushConstants {
     pub camera_position: [f32; 3],
     pub tile_origin: u32,
     pub camera_s: [f32; 3],
@@ -95,9 +95,9 @@ const _: () = {
     assert!(size_of::<BoxRecord>() == 112);
     assert!(size_of::<CylinderRecord>() == 64);
     assert!(size_of::<ConeRecord>() == 64);
-    assert!(std::mem::offset_of!(FrameRecord, light) == 64);
-    assert!(std::mem::offset_of!(FrameRecord, counts) == 108);
-    assert!(size_of::<FrameRecord>() == 128);
+    assert!(std::mem::offset_of!(CoursePushConstants, light) == 64);
+    assert!(std::mem::offset_of!(CoursePushConstants, counts) == 108);
+    assert!(size_of::<CoursePushConstants>() == 128);
 };
 
 /// The records of all primitives, by kind, each kind in file order.
@@ -174,7 +174,7 @@ impl LightRecord {
     }
 }
 
-impl FrameRecord {
+impl CoursePushConstants {
     /// The record of a whole picture of `width`×`height` pixels, for tiles to set their origin in.
     pub fn new(scene: &Scene, light: &Light, counts: [i32; 4], depth: u32, width: u32, height: u32) -> Self {
         let basis = CameraBasis::of(&scene.camera);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::whitted_records::WhittedRecords;
 use crate::gpu::{Device, DeviceKind, FloatWidth, GpuError, arithmetic};
-use crate::plan::{CPU_LOOP_TURNS, Cuts, Precision};
+use crate::plan::{Approximations, CPU_MAX_ITERATIONS, Precision};
 
 /// What the kernel is made for, apart from its precision and its workgroup.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -13,12 +13,12 @@ pub struct Requirements {
     pub kinds: [bool; 4],
     /// Of boxes over the solids of each kind.
     pub levels: [u32; 4],
-    pub are_boxes_upright: bool,
+    pub are_boxes_axis_aligned: bool,
     /// The records are those of a close-up.
     pub is_close_up: bool,
     pub highlights: bool,
-    /// Whose balls primary rays may see: none, one, or several (2).
-    pub balls: u32,
+    /// Whose light spheres primary rays may see: none, one, or several (2).
+    pub light_spheres: u32,
     /// That brighten: as many.
     pub lights: u32,
     pub shadows: bool,
@@ -30,19 +30,19 @@ pub struct Requirements {
 }
 
 impl Requirements {
-    pub fn of(records: &WhittedRecords, cuts: &Cuts, max_depth: u32) -> Self {
+    pub fn of(records: &WhittedRecords, approximations: &Approximations, max_depth: u32) -> Self {
         let lights = |matter: bool| if matter { records.light_count.min(2) } else { 0 };
-        let has_lights = lights(cuts.lights) > 0;
+        let has_lights = lights(approximations.lights) > 0;
         Self {
             kinds: records.solids.counts.map(|count| count > 0),
             levels: records.solids.levels,
-            are_boxes_upright: records.solids.are_boxes_upright,
+            are_boxes_axis_aligned: records.solids.are_boxes_axis_aligned,
             is_close_up: records.solids.frame.is_close_up,
-            highlights: cuts.highlights && has_lights,
-            balls: lights(cuts.balls),
-            lights: lights(cuts.lights),
-            shadows: cuts.shadows && has_lights,
-            reflections: cuts.reflections && max_depth > 1,
+            highlights: approximations.highlights && has_lights,
+            light_spheres: lights(approximations.light_spheres),
+            lights: lights(approximations.lights),
+            shadows: approximations.shadows && has_lights,
+            reflections: approximations.reflections && max_depth > 1,
             samples: false,
             pixels: 1,
         }
@@ -65,7 +65,7 @@ impl Requirements {
         let has_fused_fma = u32::from(arithmetic(device, float_width)?.fused_fma);
         let [spheres, boxes, cylinders, cones] = self.kinds.map(u32::from);
         let [sphere_levels, box_levels, cylinder_levels, cone_levels] = self.levels;
-        let &Self { highlights, balls, lights, shadows, reflections, samples, pixels, .. } = self;
+        let &Self { highlights, light_spheres, lights, shadows, reflections, samples, pixels, .. } = self;
         Ok([
             has_fused_fma,
             spheres,
@@ -74,8 +74,8 @@ impl Requirements {
             cones,
             width,
             height,
-            loop_turns(device),
-            u32::from(self.are_boxes_upright),
+            max_iterations(device),
+            u32::from(self.are_boxes_axis_aligned),
             sphere_levels,
             box_levels,
             cylinder_levels,
@@ -84,7 +84,7 @@ impl Requirements {
             lights,
             u32::from(shadows),
             u32::from(reflections),
-            balls,
+            light_spheres,
             u32::from(samples),
             pixels,
             u32::from(self.is_close_up),
@@ -92,10 +92,10 @@ impl Requirements {
     }
 }
 
-/// Specialization constant 7: the turns of loops that an invocation may take.
-fn loop_turns(device: &Device) -> u32 {
+/// Specialization constant 7: the iterations of loops that an invocation may take.
+fn max_iterations(device: &Device) -> u32 {
     match device.description().kind {
-        DeviceKind::Cpu => CPU_LOOP_TURNS,
+        DeviceKind::Cpu => CPU_MAX_ITERATIONS,
         DeviceKind::Discrete | DeviceKind::Integrated | DeviceKind::Virtual | DeviceKind::Other => u32::MAX,
     }
 }

@@ -3,22 +3,22 @@ use std::sync::Arc;
 use super::course::{CourseKernel, CourseScene};
 use super::parts::Part;
 use super::pixels::pixel_buffer;
-use super::records::FrameRecord;
+use super::records::CoursePushConstants;
 use super::tiles::Tile;
-use super::whitted::{WhittedScene, WhittedShot};
+use super::whitted::{ViewUniforms, WhittedScene};
 use super::whitted_pipeline::WhittedPipeline;
-use super::whitted_records::WhittedFrame;
+use super::whitted_records::WhittedPushConstants;
 use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, StorageImage, shaders};
-use crate::plan::{Crowd, MOST_PIXELS};
+use crate::plan::{MOST_PIXELS, TraversalCost};
 use crate::scene::Scene;
 
 /// A kernel with the scene that it draws.
 pub(super) enum SceneKernel {
     /// The frame is of the whole picture.
-    Course { kernel: CourseKernel, frame: Box<FrameRecord> },
-    /// The shot is of the whole picture.
-    Whitted { pipeline: WhittedPipeline, arrays: Vec<Resource>, shot: WhittedShot },
+    Course { kernel: CourseKernel, frame: Box<CoursePushConstants> },
+    /// The view uniforms are of the whole picture.
+    Whitted { pipeline: WhittedPipeline, arrays: Vec<Resource>, view_uniforms: ViewUniforms },
 }
 
 impl SceneKernel {
@@ -35,7 +35,7 @@ impl SceneKernel {
             Kernel::Plain | Kernel::Whitted(_) => {
                 let scene = whitted_scene(device, scene, settings, max_depth)?;
                 let pipeline = WhittedPipeline::new(device, &Builds::default(), &scene, workgroup)?;
-                Self::Whitted { pipeline, arrays: scene.upload(device)?, shot: scene.shot }
+                Self::Whitted { pipeline, arrays: scene.upload(device)?, view_uniforms: scene.view_uniforms }
             }
         })
     }
@@ -44,7 +44,7 @@ impl SceneKernel {
     ///
     /// # Errors
     /// As of [`SceneKernel::new`]; the last scene stays.
-    pub fn take_up(
+    pub fn set_scene(
         &mut self,
         device: &Arc<Device>,
         scene: &Scene,
@@ -53,13 +53,13 @@ impl SceneKernel {
     ) -> Result<(), TracerError> {
         let &Settings { kernel, workgroup, .. } = settings;
         match self {
-            Self::Whitted { pipeline, arrays, shot } if kernel != Kernel::Course => {
+            Self::Whitted { pipeline, arrays, view_uniforms } if kernel != Kernel::Course => {
                 let scene = whitted_scene(device, scene, settings, max_depth)?;
                 let new_arrays = scene.upload(device)?;
                 if !pipeline.fits(&scene, workgroup) {
                     *pipeline = pipeline.replaced(device, &scene, workgroup)?;
                 }
-                (*arrays, *shot) = (new_arrays, scene.shot);
+                (*arrays, *view_uniforms) = (new_arrays, scene.view_uniforms);
             }
             Self::Course { kernel: made, frame } if kernel == Kernel::Course && made.fits(max_depth, workgroup) => {
                 let scene = course_scene(scene, settings, max_depth)?;
@@ -116,8 +116,8 @@ impl SceneKernel {
 
     /// See [`Tracer::draw_remainder`](super::Tracer::draw_remainder).
     pub fn write_remainder(&mut self, remainder: bool) {
-        if let Self::Whitted { shot, .. } = self {
-            shot.frame.writes_remainder = u32::from(remainder);
+        if let Self::Whitted { view_uniforms, .. } = self {
+            view_uniforms.frame.writes_remainder = u32::from(remainder);
         }
     }
 
@@ -132,9 +132,13 @@ impl SceneKernel {
         let part = Part { first: [0, 0], groups: self.groups([width, height]) };
         match self {
             Self::Course { kernel, frame } => kernel.record(recorder, set, &frame.at_tile(x, y), &[part]),
-            Self::Whitted { pipeline, shot, .. } => {
-                let frame = WhittedFrame { tile_origin: x | y << 16, tile_size: width | height << 16, ..shot.frame };
-                pipeline.record(recorder, set, &WhittedShot { frame, ..*shot }, sample, &[part]);
+            Self::Whitted { pipeline, view_uniforms, .. } => {
+                let frame = WhittedPushConstants {
+                    tile_origin: x | y << 16,
+                    tile_size: width | height << 16,
+                    ..view_uniforms.frame
+                };
+                pipeline.record(recorder, set, &ViewUniforms { frame, ..*view_uniforms }, sample, &[part]);
             }
         }
     }
@@ -151,13 +155,14 @@ fn whitted_scene(
     settings: &Settings,
     max_depth: u32,
 ) -> Result<WhittedScene, TracerError> {
-    let &Settings { width, height, kernel, cuts, without_boxes, pixels, .. } = settings;
+    let &Settings { width, height, kernel, approximations, without_boxes, pixels, .. } = settings;
     let size = [width, height];
     // Without boxes, a search among more solids than are looked at is long.
     let unknown = if without_boxes { 1 } else { MOST_PIXELS };
-    let in_turn = || Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), max_depth, unknown);
-    let pixels = pixels.unwrap_or_else(in_turn);
-    let scene = WhittedScene::new(device, scene, kernel, cuts, max_depth, size)?;
-    let scene = scene.sampled(settings.sampling(), size).in_turn(pixels);
+    let with_pixels_per_invocation =
+        || TraversalCost::of(&scene.primitives).pixels_per_invocation(scene.lights.len(), max_depth, unknown);
+    let pixels = pixels.unwrap_or_else(with_pixels_per_invocation);
+    let scene = WhittedScene::new(device, scene, kernel, approximations, max_depth, size)?;
+    let scene = scene.sampled(settings.sampling(), size).with_pixels_per_invocation(pixels);
     Ok(if without_boxes { scene.without_boxes() } else { scene })
 }

@@ -2,7 +2,7 @@
 
 use super::course::WORKGROUP;
 use super::sampling::Sampling;
-use crate::plan::{Cuts, Plan, Precision};
+use crate::plan::{Approximations, Plan, Precision};
 
 /// Which kernel draws.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -39,12 +39,12 @@ pub struct Settings {
     pub workgroup: [u32; 2],
     pub kernel: Kernel,
     /// What is left out; the course kernel leaves out nothing.
-    pub cuts: Cuts,
+    pub approximations: Approximations,
     /// The accurate kernel goes down no boxes: each ray looks at every solid. Slow; what the boxes may not change is
     /// tested against it.
     pub without_boxes: bool,
     /// That an invocation of the accurate kernel traces in turn, where invocations come in packets: 1 to 8, in place
-    /// of what [suits the scene](crate::plan::Crowd::pixels_in_turn). What that may not change is tested with it.
+    /// of what [suits the scene](crate::plan::TraversalCost::pixels_per_invocation). What that may not change is tested with it.
     pub pixels: Option<u32>,
     /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See [`sampling`](super::sampling).
     pub samples: u32,
@@ -63,7 +63,7 @@ impl Settings {
             max_tile_side: 1024,
             workgroup: WORKGROUP,
             kernel: Kernel::Course,
-            cuts: Cuts::NONE,
+            approximations: Approximations::NONE,
             without_boxes: false,
             pixels: None,
             samples: 1,
@@ -80,7 +80,7 @@ impl Settings {
             max_tile_side: plan.tile_side.choice,
             workgroup: plan.workgroup.choice,
             kernel: Kernel::Whitted(plan.precision.choice),
-            cuts: plan.cuts,
+            approximations: plan.approximations,
             without_boxes: false,
             pixels: None,
             samples: 1,
@@ -97,17 +97,17 @@ impl Settings {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Work {
     /// See [`Settings`], as of the others.
-    pub cuts: Cuts,
+    pub approximations: Approximations,
     pub max_depth: Option<u32>,
     pub without_boxes: bool,
 }
 
 impl Work {
     /// All of it.
-    pub const WHOLE: Self = Self { cuts: Cuts::NONE, max_depth: None, without_boxes: false };
+    pub const WHOLE: Self = Self { approximations: Approximations::NONE, max_depth: None, without_boxes: false };
 
     pub fn of(settings: &Settings) -> Self {
-        let &Settings { cuts, max_depth, without_boxes, .. } = settings;
-        Self { cuts, max_depth, without_boxes }
+        let &Settings { approximations, max_depth, without_boxes, .. } = settings;
+        Self { approximations, max_depth, without_boxes }
     }
 }

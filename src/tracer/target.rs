@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::enlarge::Enlarger;
 use super::pixels::largest_side;
 use super::scene_kernel::SceneKernel;
 use super::tiles::{Tile, tiles};
+use super::upscale::Upscaler;
 use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Buffer, BufferKind, Device, PIXEL_BYTES, Resource, StorageImage};
 use crate::plan::{tile_side, tried_under_boxes};
@@ -17,7 +17,7 @@ pub(super) struct Target {
     /// A tile as it is traced: the kernel's [picture](SceneKernel::picture).
     pub traced: Resource,
     /// Where that is smaller than the tile.
-    pub enlarging: Option<Enlarging>,
+    pub upscaling: Option<Upscaling>,
     pub pixels: Arc<Buffer>,
     /// The same.
     pub read_back: Resource,
@@ -27,8 +27,8 @@ pub(super) struct Target {
 }
 
 /// A tile of the picture asked for, made from the traced one.
-pub(super) struct Enlarging {
-    pub enlarger: Enlarger,
+pub(super) struct Upscaling {
+    pub upscaler: Upscaler,
     pub set: Arc<BindingSet>,
     /// The traced tile, copied.
     pub source: Resource,
@@ -53,24 +53,24 @@ impl Target {
         let image = |name, [width, height]: [u32; 2]| {
             Ok::<_, TracerError>(Resource::from(&Arc::new(StorageImage::new(device, name, width, height)?)))
         };
-        let (traced, enlarging) = if scale < 1.0 {
-            let enlarger = Enlarger::new(device, size, settings.sampling().traced_size(size))?;
-            let traced_tile = enlarger.most_traced(tile);
+        let (traced, upscaling) = if scale < 1.0 {
+            let upscaler = Upscaler::new(device, size, settings.sampling().traced_size(size))?;
+            let traced_tile = upscaler.most_traced(tile);
             let (source, picture) = (image("traced tile", traced_tile)?, image("picture", tile)?);
-            let set = enlarger.bind(&picture, &source)?;
+            let set = upscaler.bind(&picture, &source)?;
             let traced = kernel.picture(device, "traced", traced_tile)?;
-            (traced, Some(Enlarging { enlarger, set, source, picture }))
+            (traced, Some(Upscaling { upscaler, set, source, picture }))
         } else {
             (kernel.picture(device, "picture", tile)?, None)
         };
         let tile_bytes = u64::from(tile[0]) * u64::from(tile[1]) * PIXEL_BYTES;
         let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, tile_bytes)?);
         let (tiles, read_back) = (tiles(width, height, tile_side), Resource::from(&pixels));
-        Ok(Self { tiles, traced, enlarging, pixels, read_back, scale, traced_side })
+        Ok(Self { tiles, traced, upscaling, pixels, read_back, scale, traced_side })
     }
 
     /// For another scene or other settings of the same size; what is there is kept where it fits.
-    pub fn take_up(
+    pub fn set_scene(
         &mut self,
         device: &Arc<Device>,
         kernel: &SceneKernel,

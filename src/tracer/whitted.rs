@@ -6,11 +6,11 @@ use glam::DVec3;
 
 use super::requirements::Requirements;
 use super::sampling::Sampling;
-use super::whitted_records::{WhittedFrame, WhittedRecords};
+use super::whitted_records::{WhittedPushConstants, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingKind, Buffer, BufferKind, Device, GpuError, Resource, Texel};
-use crate::plan::{self, Area, Cuts, MOST_PIXELS, Precision};
-use crate::scene::{KernelFrame, Scene};
+use crate::plan::{self, Approximations, Area, MOST_PIXELS, Precision};
+use crate::scene::{Scene, SceneSpace};
 
 impl Precision {
     /// A vector and its error as the nearest vector of this precision and what is missing.
@@ -58,10 +58,10 @@ pub fn scene_bindings(precision: Precision) -> [BindingKind; 7] {
 
 /// The frame that a kernel calculates a scene's picture in. The plain one knows no close-ups, which the textbook does not
 /// know.
-pub fn kernel_frame(scene: &Scene, kernel: Kernel) -> KernelFrame {
+pub fn scene_space(scene: &Scene, kernel: Kernel) -> SceneSpace {
     match kernel {
-        Kernel::Whitted(precision) => plan::kernel_frame(scene, precision),
-        Kernel::Plain | Kernel::Course => KernelFrame::of(scene),
+        Kernel::Whitted(precision) => plan::scene_space(scene, precision),
+        Kernel::Plain | Kernel::Course => SceneSpace::of(scene),
     }
 }
 
@@ -79,11 +79,11 @@ pub fn check_precision(device: &Device, precision: Precision) -> Result<(), Trac
 
 /// Refuses arrays larger than the device lets a kernel see.
 fn check_size(device: &Device, records: &WhittedRecords, precision: Precision) -> Result<(), TracerError> {
-    let outlines = ("outlines", records.solids.outlines.len() as u64 * Texel::BYTES);
+    let proxies = ("proxies", records.solids.proxies.len() as u64 * Texel::BYTES);
     let own = records.buffers().map(|(name, rows)| (name, rows.len() as u64 * precision.row_bytes()));
     let description = device.description();
     let limit = description.max_texels * Texel::BYTES;
-    let mut arrays = own.into_iter().chain([outlines]);
+    let mut arrays = own.into_iter().chain([proxies]);
     arrays.try_for_each(|(name, bytes)| check_array(name, bytes, &description.name, limit))
 }
 
@@ -121,7 +121,7 @@ fn upload(device: &Arc<Device>, records: &WhittedRecords, precision: Precision) 
     for (name, rows) in records.buffers() {
         resources.push(upload(name, precision.texel(), &precision.bytes(rows.as_flattened()))?);
     }
-    resources.insert(1, upload("outlines", Texel::Floats, bytemuck::cast_slice(&records.solids.outlines))?);
+    resources.insert(1, upload("proxies", Texel::Floats, bytemuck::cast_slice(&records.solids.proxies))?);
     Ok(resources)
 }
 
@@ -130,27 +130,27 @@ const EMPTY_ARRAY_BYTES: u64 = 7 * 32;
 
 /// What a kernel is told of a picture, besides the scene's arrays.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) struct WhittedShot {
-    pub frame: WhittedFrame,
-    /// Where balls of lights may be seen.
-    pub balls: Option<Area>,
+pub(super) struct ViewUniforms {
+    pub frame: WhittedPushConstants,
+    /// Where light spheres may be seen.
+    pub light_spheres: Option<Area>,
 }
 
-/// Where a picture shows balls of lights.
+/// Where a picture shows light spheres.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Balls {
+pub(super) enum LightSpheres {
     Nowhere,
     Somewhere,
     Everywhere,
 }
 
-impl WhittedShot {
-    pub fn where_balls_are(&self) -> Balls {
+impl ViewUniforms {
+    pub fn where_light_spheres_are(&self) -> LightSpheres {
         let [width, height] = unpacked(self.frame.image_size);
-        match self.balls.map(|area| area.pixels([width, height])) {
-            None => Balls::Nowhere,
-            Some(pixels) if pixels == [0..width, 0..height] => Balls::Everywhere,
-            Some(_) => Balls::Somewhere,
+        match self.light_spheres.map(|area| area.pixels([width, height])) {
+            None => LightSpheres::Nowhere,
+            Some(pixels) if pixels == [0..width, 0..height] => LightSpheres::Everywhere,
+            Some(_) => LightSpheres::Somewhere,
         }
     }
 }
@@ -167,7 +167,7 @@ pub(super) struct WhittedScene {
     pub records: WhittedRecords,
     pub requirements: Requirements,
     /// Of the whole picture in one tile.
-    pub shot: WhittedShot,
+    pub view_uniforms: ViewUniforms,
     /// Of each pixel.
     pub samples: u32,
     /// Linear RGB.
@@ -183,13 +183,13 @@ impl WhittedScene {
         device: &Device,
         scene: &Scene,
         kernel: Kernel,
-        cuts: Cuts,
+        approximations: Approximations,
         max_depth: u32,
         size: [u32; 2],
     ) -> Result<Self, TracerError> {
         check_precision(device, kernel.precision())?;
-        let records = WhittedRecords::of(scene, kernel_frame(scene, kernel), kernel.precision(), size);
-        Self::with(device, scene, records, kernel, cuts, max_depth, size)
+        let records = WhittedRecords::of(scene, scene_space(scene, kernel), kernel.precision(), size);
+        Self::with(device, scene, records, kernel, approximations, max_depth, size)
     }
 
     /// With the scene's records for a picture of that size, pixel by pixel.
@@ -201,48 +201,49 @@ impl WhittedScene {
         scene: &Scene,
         records: WhittedRecords,
         kernel: Kernel,
-        cuts: Cuts,
+        approximations: Approximations,
         max_depth: u32,
         [width, height]: [u32; 2],
     ) -> Result<Self, TracerError> {
         check_size(device, &records, kernel.precision())?;
-        let frame = WhittedFrame {
+        let frame = WhittedPushConstants {
             counts: records.solids.counts,
-            first_outlines: records.solids.first_outlines,
+            first_proxies: records.solids.first_proxies,
             tile_origin: 0,
             image_size: width | height << 16,
             depth: max_depth,
             light_count: records.light_count,
             reach: records.solids.frame.reach,
             writes_remainder: 0,
-            least_weight: cuts.least_weight,
-            least_shadowed: cuts.least_shadowed,
+            min_throughput: approximations.min_throughput,
+            min_shadowed: approximations.min_shadowed,
             sample_place: [0, 0],
             samples_before: 0,
             sample_weight: 1.0,
             tile_size: width | height << 16,
         };
-        let requirements = Requirements::of(&records, &cuts, max_depth);
+        let requirements = Requirements::of(&records, &approximations, max_depth);
         let background = scene.background.as_vec3().to_array();
         // No coordinate is larger than twice the reach: no two places are farther apart than 4 * sqrt(3) of that.
         let farthest = 7.0 * f64::from(records.solids.frame.reach) / records.solids.frame.scale;
-        let balls = Area::of_balls(scene, f64::from(width) / f64::from(height), farthest);
-        let shot = WhittedShot { frame, balls: balls.filter(|_| cuts.balls) };
-        Ok(Self { kernel, records, requirements, shot, samples: 1, background })
+        let light_spheres = Area::of_light_spheres(scene, f64::from(width) / f64::from(height), farthest);
+        let view_uniforms =
+            ViewUniforms { frame, light_spheres: light_spheres.filter(|_| approximations.light_spheres) };
+        Ok(Self { kernel, records, requirements, view_uniforms, samples: 1, background })
     }
 
     /// Traced so for a picture of `size` pixels: what the window shows stays the same to the last bit.
     pub fn sampled(mut self, sampling: Sampling, size: [u32; 2]) -> Self {
         let [width, height] = sampling.traced_size(size);
-        self.shot.frame.image_size = width | height << 16;
-        self.shot.frame.tile_size = self.shot.frame.image_size;
+        self.view_uniforms.frame.image_size = width | height << 16;
+        self.view_uniforms.frame.tile_size = self.view_uniforms.frame.image_size;
         self.samples = sampling.samples;
         self.requirements.samples = sampling.samples > 1;
         self
     }
 
     /// With so many pixels an invocation, where those come in packets.
-    pub fn in_turn(mut self, pixels: u32) -> Self {
+    pub fn with_pixels_per_invocation(mut self, pixels: u32) -> Self {
         self.requirements.pixels = pixels.clamp(1, MOST_PIXELS);
         self
     }
@@ -260,7 +261,7 @@ impl WhittedScene {
     /// Of all arrays.
     pub fn bytes(&self) -> u64 {
         let rows: usize = self.records.buffers().iter().map(|(_, rows)| rows.len()).sum();
-        rows as u64 * self.kernel.precision().row_bytes() + self.records.solids.outlines.len() as u64 * Texel::BYTES
+        rows as u64 * self.kernel.precision().row_bytes() + self.records.solids.proxies.len() as u64 * Texel::BYTES
     }
 }
 

@@ -6,8 +6,8 @@ use std::thread::available_parallelism;
 use super::Kernel;
 use super::parts::{Grid, Part};
 use super::requirements::Requirements;
-use super::whitted::{Balls, WhittedScene, WhittedShot, scene_bindings, unpacked};
-use super::whitted_records::WhittedFrame;
+use super::whitted::{LightSpheres, ViewUniforms, WhittedScene, scene_bindings, unpacked};
+use super::whitted_records::WhittedPushConstants;
 use crate::gpu::{
     BindingKind, BindingSet, Builds, ComputePipeline, Device, DeviceKind, Dispatch, GpuError, PipelineDescription,
     Recorder, Resource, Shader, shaders,
@@ -16,11 +16,11 @@ use crate::plan::{Area, Precision};
 
 /// The kernel, specialised for what a scene requires.
 pub(super) struct WhittedPipeline {
-    /// For where balls of lights may be seen, and where none may; one and the same where a picture is only of either.
-    with_balls: Arc<ComputePipeline>,
-    without_balls: Arc<ComputePipeline>,
+    /// For where light spheres may be seen, and where none may; one and the same where a picture is only of either.
+    with_light_spheres: Arc<ComputePipeline>,
+    without_light_spheres: Arc<ComputePipeline>,
     /// In the pictures that they are for; `Somewhere` is for all.
-    balls: Balls,
+    light_spheres: LightSpheres,
     kernel: Kernel,
     requirements: Requirements,
     workgroup: [u32; 2],
@@ -34,19 +34,19 @@ pub(super) struct WhittedPipeline {
 
 /// The program's own shader for a kernel on a device.
 pub(super) fn shader_of(device: &Device, kernel: Kernel, workgroup: [u32; 2]) -> &'static Shader {
-    match (kernel, has_octets(device, workgroup)) {
+    match (kernel, has_packets(device, workgroup)) {
         (Kernel::Whitted(Precision::F64), false) => &shaders::WHITTED_F64,
-        (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_OCTETS,
+        (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_PACKETS,
         (Kernel::Whitted(Precision::F32), false) => &shaders::WHITTED_F32,
-        (Kernel::Whitted(Precision::F32), true) => &shaders::WHITTED_F32_OCTETS,
+        (Kernel::Whitted(Precision::F32), true) => &shaders::WHITTED_F32_PACKETS,
         (Kernel::Plain | Kernel::Course, false) => &shaders::WHITTED_PLAIN,
-        (Kernel::Plain | Kernel::Course, true) => &shaders::WHITTED_PLAIN_OCTETS,
+        (Kernel::Plain | Kernel::Course, true) => &shaders::WHITTED_PLAIN_PACKETS,
     }
 }
 
 /// Packets are of invocations along x.
-fn has_octets(device: &Device, workgroup: [u32; 2]) -> bool {
-    device.description().octets && workgroup[0].is_multiple_of(8)
+fn has_packets(device: &Device, workgroup: [u32; 2]) -> bool {
+    device.description().packets && workgroup[0].is_multiple_of(8)
 }
 
 /// Of a driver that runs workgroups on CPUs.
@@ -64,7 +64,14 @@ impl WhittedPipeline {
         scene: &WhittedScene,
         workgroup: [u32; 2],
     ) -> Result<Self, GpuError> {
-        Self::made(device, builds, scene.kernel, scene.requirements, scene.shot.where_balls_are(), workgroup)
+        Self::made(
+            device,
+            builds,
+            scene.kernel,
+            scene.requirements,
+            scene.view_uniforms.where_light_spheres_are(),
+            workgroup,
+        )
     }
 
     fn made(
@@ -72,39 +79,49 @@ impl WhittedPipeline {
         builds: &Builds,
         kernel: Kernel,
         requirements: Requirements,
-        balls: Balls,
+        light_spheres: LightSpheres,
         workgroup: [u32; 2],
     ) -> Result<Self, GpuError> {
         let precision = kernel.precision();
         let mut bindings = vec![BindingKind::Pixels];
         bindings.extend(scene_bindings(precision));
-        let pixels = if has_octets(device, workgroup) { requirements.pixels } else { 1 };
+        let pixels = if has_packets(device, workgroup) { requirements.pixels } else { 1 };
         let shader = builds.of(shader_of(device, kernel, workgroup));
-        let push_constant_bytes = size_of::<WhittedFrame>() as u32;
+        let push_constant_bytes = size_of::<WhittedPushConstants>() as u32;
         let own = Requirements { pixels, ..requirements };
-        let with_balls = own.constants(device, precision, workgroup)?;
-        let without_balls = Requirements { balls: 0, ..own }.constants(device, precision, workgroup)?;
+        let with_light_spheres = own.constants(device, precision, workgroup)?;
+        let without_light_spheres = Requirements { light_spheres: 0, ..own }.constants(device, precision, workgroup)?;
         let description =
             |constants| PipelineDescription { shader, bindings: &bindings, push_constant_bytes, constants };
-        let first = if balls == Balls::Nowhere { &without_balls } else { &with_balls };
-        let with_balls = ComputePipeline::new(device, &description(first))?;
-        let without_balls = match balls {
-            Balls::Somewhere => with_balls.sibling(&description(&without_balls))?,
-            Balls::Nowhere | Balls::Everywhere => with_balls.clone(),
+        let first = if light_spheres == LightSpheres::Nowhere { &without_light_spheres } else { &with_light_spheres };
+        let with_light_spheres = ComputePipeline::new(device, &description(first))?;
+        let without_light_spheres = match light_spheres {
+            LightSpheres::Somewhere => with_light_spheres.sibling(&description(&without_light_spheres))?,
+            LightSpheres::Nowhere | LightSpheres::Everywhere => with_light_spheres.clone(),
         };
         let (threads, builds) = (threads(device), builds.clone());
-        Ok(Self { with_balls, without_balls, balls, kernel, requirements, workgroup, pixels, threads, builds })
+        Ok(Self {
+            with_light_spheres,
+            without_light_spheres,
+            light_spheres,
+            kernel,
+            requirements,
+            workgroup,
+            pixels,
+            threads,
+            builds,
+        })
     }
 
     /// The same for pixels that are traced each by itself.
     pub fn one_by_one(&self, device: &Arc<Device>) -> Result<Self, GpuError> {
         let requirements = Requirements { pixels: 1, ..self.requirements };
-        Self::made(device, &self.builds, self.kernel, requirements, self.balls, self.workgroup)
+        Self::made(device, &self.builds, self.kernel, requirements, self.light_spheres, self.workgroup)
     }
 
     /// The same from other builds.
     pub fn rebuilt(&self, device: &Arc<Device>, builds: &Builds) -> Result<Self, GpuError> {
-        Self::made(device, builds, self.kernel, self.requirements, self.balls, self.workgroup)
+        Self::made(device, builds, self.kernel, self.requirements, self.light_spheres, self.workgroup)
     }
 
     /// Whether it draws that scene too, as one made for it would.
@@ -112,9 +129,9 @@ impl WhittedPipeline {
         self.serves(scene, workgroup) && self.requirements.pixels == scene.requirements.pixels
     }
 
-    /// Whether it draws that scene too, if perhaps by fewer pixels in turn.
+    /// Whether it draws that scene too, if perhaps by fewer pixels per invocation.
     pub fn serves(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
-        self.pixels_are_served(scene, workgroup) && self.balls_are_served(scene)
+        self.pixels_are_served(scene, workgroup) && self.light_spheres_are_served(scene)
     }
 
     fn pixels_are_served(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
@@ -124,21 +141,22 @@ impl WhittedPipeline {
             && own == (scene.kernel, Requirements { pixels, ..scene.requirements }, workgroup)
     }
 
-    fn balls_are_served(&self, scene: &WhittedScene) -> bool {
-        [Balls::Somewhere, scene.shot.where_balls_are()].contains(&self.balls)
+    fn light_spheres_are_served(&self, scene: &WhittedScene) -> bool {
+        [LightSpheres::Somewhere, scene.view_uniforms.where_light_spheres_are()].contains(&self.light_spheres)
     }
 
-    /// In its place, for a scene that it does not fit. Where balls come in sight and go out of it, that is once for all.
+    /// In its place, for a scene that it does not fit. Where light spheres come in sight and go out of it, that is once for all.
     pub fn replaced(&self, device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
-        let is_seen_otherwise = self.pixels_are_served(scene, workgroup) && !self.balls_are_served(scene);
-        let balls = if is_seen_otherwise { Balls::Somewhere } else { scene.shot.where_balls_are() };
-        Self::made(device, &self.builds, scene.kernel, scene.requirements, balls, workgroup)
+        let is_seen_otherwise = self.pixels_are_served(scene, workgroup) && !self.light_spheres_are_served(scene);
+        let light_spheres =
+            if is_seen_otherwise { LightSpheres::Somewhere } else { scene.view_uniforms.where_light_spheres_are() };
+        Self::made(device, &self.builds, scene.kernel, scene.requirements, light_spheres, workgroup)
     }
 
     /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.
     pub fn bind(&self, picture: &Resource, arrays: &[Resource]) -> Result<Arc<BindingSet>, GpuError> {
         let resources: Vec<_> = [picture].into_iter().chain(arrays).cloned().collect();
-        BindingSet::new(&self.with_balls, &resources)
+        BindingSet::new(&self.with_light_spheres, &resources)
     }
 
     /// Traces these parts of the picture: the sample with this index of each pixel, the ones before being there.
@@ -146,26 +164,26 @@ impl WhittedPipeline {
         &self,
         recorder: &mut Recorder,
         set: &Arc<BindingSet>,
-        shot: &WhittedShot,
+        view_uniforms: &ViewUniforms,
         sample: u32,
         parts: &[Part],
     ) {
-        let WhittedShot { frame, balls } = shot;
-        let balls = balls.map(|area| self.part_of(area, frame));
-        let cut = |part: &Part| balls.map_or_else(|| (None, vec![*part]), |area| part.cut(area));
-        let (with_balls, others): (Vec<_>, Vec<_>) = parts.iter().map(cut).unzip();
-        let with_balls = with_balls.into_iter().flatten().map(|part| (part, &self.with_balls));
-        let others = others.into_iter().flatten().map(|part| (part, &self.without_balls));
+        let ViewUniforms { frame, light_spheres } = view_uniforms;
+        let light_spheres = light_spheres.map(|area| self.part_of(area, frame));
+        let cut = |part: &Part| light_spheres.map_or_else(|| (None, vec![*part]), |area| part.cut(area));
+        let (with_light_spheres, others): (Vec<_>, Vec<_>) = parts.iter().map(cut).unzip();
+        let with_light_spheres = with_light_spheres.into_iter().flatten().map(|part| (part, &self.with_light_spheres));
+        let others = others.into_iter().flatten().map(|part| (part, &self.without_light_spheres));
         let dispatches = |(part, pipeline): (Part, _)| {
             let grids = part.shares(self.threads).into_iter();
             grids.map(move |Grid { first, groups }| Dispatch { pipeline, first, groups })
         };
-        let dispatches: Vec<_> = with_balls.chain(others).flat_map(dispatches).collect();
+        let dispatches: Vec<_> = with_light_spheres.chain(others).flat_map(dispatches).collect();
         recorder.dispatch_parts(set, bytemuck::bytes_of(&frame.at_sample(sample)), &dispatches);
     }
 
     /// The workgroups of a tile that an area of the picture touches, and perhaps some beyond it.
-    fn part_of(&self, area: Area, frame: &WhittedFrame) -> Part {
+    fn part_of(&self, area: Area, frame: &WhittedPushConstants) -> Part {
         let pixels = area.pixels(unpacked(frame.image_size));
         let tile = unpacked(frame.tile_origin);
         let group = [self.workgroup[0], self.workgroup[1] * self.pixels];

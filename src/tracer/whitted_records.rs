@@ -11,11 +11,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::hierarchy::{self, Bounds, GROUP, Level};
-use super::outlines::{bounds, is_turned, level_rows, nothing, outline};
+use super::proxies::{bounds, is_rotated, level_rows, nothing, proxy};
 use super::sampling::sample_place;
 use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, VIEW_ROWS, solid_row_count};
 use crate::scene::{
-    BoundingSphere, BoxNearby, Camera, CylinderNearby, KernelFrame, Light, Primitive, Projection, Scene, Solid,
+    BoundingSphere, BoxNearby, Camera, CylinderNearby, Light, Primitive, Projection, Scene, SceneSpace, Solid,
     SolidKind, SphereNearby, two_sum, world_from_box,
 };
 
@@ -39,7 +39,7 @@ impl PartialEq for WhittedRecords {
 
 impl WhittedRecords {
     /// For a picture of `width`×`height` pixels; `precision` is that of the kernel.
-    pub fn of(scene: &Scene, frame: KernelFrame, precision: Precision, size: [u32; 2]) -> Self {
+    pub fn of(scene: &Scene, frame: SceneSpace, precision: Precision, size: [u32; 2]) -> Self {
         Self::with(scene, Arc::new(SolidRecords::of(&scene.primitives, frame, precision, None)), precision, size)
     }
 
@@ -55,7 +55,7 @@ impl WhittedRecords {
         Self { view_and_lights, light_count: scene.lights.len() as u32, solids }
     }
 
-    /// The buffers of the kernel's own numbers, in the order of their bindings, with their names; the outlines come
+    /// The buffers of the kernel's own numbers, in the order of their bindings, with their names; the proxies come
     /// after the first.
     pub fn buffers(&self) -> [(&'static str, &[[f64; 4]]); 6] {
         let [spheres, boxes, cylinders, cones] = &self.solids.rows;
@@ -73,9 +73,9 @@ impl WhittedRecords {
 /// All that the kernel is told of the primitives.
 #[derive(Debug, Default, PartialEq)]
 pub struct SolidRecords {
-    pub frame: KernelFrame,
-    /// The outlines of each kind's solids and the boxes over them, for the search in `f32`.
-    pub outlines: Vec<[f32; 4]>,
+    pub frame: SceneSpace,
+    /// The proxies of each kind's solids and the boxes over them, for the search in `f32`.
+    pub proxies: Vec<[f32; 4]>,
     /// Spheres, boxes, cylinders, cones, as all that follows by kind.
     pub rows: [Vec<[f64; 4]>; 4],
     /// By slot.
@@ -83,12 +83,12 @@ pub struct SolidRecords {
     /// The slot of each primitive of the scene, or [`NO_SLOT`].
     pub slots: Vec<u32>,
     pub counts: [u32; 4],
-    /// Where each kind's outlines begin, rows.
-    pub first_outlines: [u32; 4],
+    /// Where each kind's proxies begin, rows.
+    pub first_proxies: [u32; 4],
     /// Of boxes over the solids.
     pub levels: [u32; 4],
-    /// No box is turned.
-    pub are_boxes_upright: bool,
+    /// No box is rotated.
+    pub are_boxes_axis_aligned: bool,
     orders: [Order; 4],
 }
 
@@ -112,12 +112,12 @@ impl SolidRecords {
     /// the records that they had, in their places.
     pub(super) fn of(
         primitives: &[Primitive],
-        frame: KernelFrame,
+        frame: SceneSpace,
         precision: Precision,
         last: Option<&SolidRecords>,
     ) -> Self {
         let slots = vec![NO_SLOT; primitives.len()];
-        let mut records = Self { frame, are_boxes_upright: true, slots, ..Self::default() };
+        let mut records = Self { frame, are_boxes_axis_aligned: true, slots, ..Self::default() };
         for kind in SolidKind::ALL {
             records.add(kind, primitives, precision, last.map(|last| &last.orders[kind as usize]));
         }
@@ -142,16 +142,16 @@ impl SolidRecords {
         }
         self.counts[kind as usize] = bounds.len() as u32;
         self.levels[kind as usize] = levels.len() as u32;
-        self.first_outlines[kind as usize] = self.outlines.len() as u32;
-        self.outlines.par_extend(
-            ordered().zip(&bounds).flat_map_iter(|((_, primitive), bounds)| outline(&primitive.solid, *bounds, frame)),
+        self.first_proxies[kind as usize] = self.proxies.len() as u32;
+        self.proxies.par_extend(
+            ordered().zip(&bounds).flat_map_iter(|((_, primitive), bounds)| proxy(&primitive.solid, *bounds, frame)),
         );
         let missing = bounds.len().next_multiple_of(GROUP) - bounds.len();
-        self.outlines.extend(std::iter::repeat_n(nothing(kind), missing).flatten());
+        self.proxies.extend(std::iter::repeat_n(nothing(kind), missing).flatten());
         for (height, level) in (1..).zip(&levels) {
-            self.outlines.extend(level_rows(level, height, frame));
+            self.proxies.extend(level_rows(level, height, frame));
         }
-        self.are_boxes_upright &= !ordered().any(|(_, primitive)| is_turned(&primitive.solid));
+        self.are_boxes_axis_aligned &= !ordered().any(|(_, primitive)| is_rotated(&primitive.solid));
         let rows = &mut self.rows[kind as usize];
         rows.par_extend(ordered().flat_map_iter(|(_, primitive)| solid_rows(&primitive.solid, frame, precision)));
         self.materials.par_extend(ordered().flat_map_iter(|(index, Primitive { material, .. })| {
@@ -196,7 +196,7 @@ pub(super) fn row(vector: DVec3, fourth: f64) -> [f64; 4] {
 }
 
 /// `Sphere`, `Box`, `Cylinder` or `Cone`.
-fn solid_rows(solid: &Solid, frame: KernelFrame, precision: Precision) -> Vec<[f64; 4]> {
+fn solid_rows(solid: &Solid, frame: SceneSpace, precision: Precision) -> Vec<[f64; 4]> {
     let scale = frame.scale;
     match *solid {
         Solid::Sphere { center, radius } if frame.is_close_up => {
@@ -291,13 +291,13 @@ pub(super) fn unit((value, error): (DVec3, DVec3)) -> (DVec3, DVec3) {
 }
 
 /// `Light`
-fn light_rows(light: &Light, frame: KernelFrame) -> [[f64; 4]; LIGHT_ROWS] {
+fn light_rows(light: &Light, frame: SceneSpace) -> [[f64; 4]; LIGHT_ROWS] {
     let (position, radius) = frame.light(light);
     [row(position, radius), row(light.intensity, 0.0)]
 }
 
 /// `View`
-fn view(scene: &Scene, frame: KernelFrame, precision: Precision, width: u32, height: u32) -> [[f64; 4]; VIEW_ROWS] {
+fn view(scene: &Scene, frame: SceneSpace, precision: Precision, width: u32, height: u32) -> [[f64; 4]; VIEW_ROWS] {
     let Camera { position, direction, up, vertical_fov_degrees, projection } = scene.camera;
     let (position, position_error) = precision.split(frame.exact_point(position));
     let unit = |vector| unit((vector, DVec3::ZERO)).0;
@@ -319,14 +319,14 @@ fn view(scene: &Scene, frame: KernelFrame, precision: Precision, width: u32, hei
     ]
 }
 
-/// `WhittedFrame`: the push constants.
+/// `WhittedPushConstants`: the push constants.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
-pub struct WhittedFrame {
+pub struct WhittedPushConstants {
     /// Spheres, boxes, cylinders, cones.
     pub counts: [u32; 4],
-    /// Where their outlines begin, rows.
-    pub first_outlines: [u32; 4],
+    /// Where their proxies begin, rows.
+    pub first_proxies: [u32; 4],
     /// Pixels, x | y << 16.
     pub tile_origin: u32,
     /// Pixels, width | height << 16.
@@ -338,10 +338,10 @@ pub struct WhittedFrame {
     pub reach: f32,
     /// Not 0: the picture is what each colour loses by rounding to `f32`.
     pub writes_remainder: u32,
-    /// [`Cuts::least_weight`](crate::plan::Cuts).
-    pub least_weight: f32,
-    /// [`Cuts::least_shadowed`](crate::plan::Cuts).
-    pub least_shadowed: f32,
+    /// [`Approximations::min_throughput`](crate::plan::Approximations).
+    pub min_throughput: f32,
+    /// [`Approximations::min_shadowed`](crate::plan::Approximations).
+    pub min_shadowed: f32,
     /// In the pixel, sub-pixels from its top left.
     pub sample_place: [u32; 2],
     /// Of each pixel, that the picture is the mean of.
@@ -352,7 +352,7 @@ pub struct WhittedFrame {
     pub tile_size: u32,
 }
 
-impl WhittedFrame {
+impl WhittedPushConstants {
     /// For the sample with this index, where pixels have several.
     pub(super) fn at_sample(self, index: u32) -> Self {
         let sample_weight = 1.0 / (index + 1) as f32;

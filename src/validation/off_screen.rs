@@ -161,7 +161,7 @@ fn draw(
 ) -> Result<(), TracerError> {
     let tracer = match tracer {
         Some(tracer) => {
-            tracer.take_up(&run.scene, &run.settings)?;
+            tracer.set_scene(&run.scene, &run.settings)?;
             tracer
         }
         None => tracer.insert(Tracer::new(device, &run.scene, &run.settings)?),

@@ -19,11 +19,11 @@ const TILE_SIDE: u32 = 40;
 const ERROR: f64 = 1.0 / 510.0;
 
 /// A workgroup that does not come by eights along x, so that a kernel cannot count on
-/// [octets](DeviceDescription::octets). No plan chooses it; where there are octets, it shows the kernels of other devices,
+/// [packets](DeviceDescription::packets). No plan chooses it; where there are packets, it shows the kernels of other devices,
 /// and few scenes are enough.
 const NARROW_WORKGROUP: [u32; 2] = [4, 8];
 
-/// More than one sample a pixel, and a smaller picture enlarged. One scene shows what these add behind the tracing.
+/// More than one sample a pixel, and a smaller picture upscaled. One scene shows what these add behind the tracing.
 const SAMPLED: Sampling = Sampling { samples: 3, scale: 0.5 };
 const SAMPLED_SCENE: &str = TWO_LIGHTS;
 
@@ -108,7 +108,7 @@ struct Way {
 fn ways(device: &DeviceDescription) -> Vec<Way> {
     let precisions: &[Precision] = if device.float64 { &[Precision::F32, Precision::F64] } else { &[Precision::F32] };
     let whitted = precisions.iter().map(|&precision| Kernel::Whitted(precision));
-    let workgroups: &[[u32; 2]] = if device.octets { &[WORKGROUP, NARROW_WORKGROUP] } else { &[WORKGROUP] };
+    let workgroups: &[[u32; 2]] = if device.packets { &[WORKGROUP, NARROW_WORKGROUP] } else { &[WORKGROUP] };
     let mut ways = Vec::new();
     for kernel in [Kernel::Course, Kernel::Plain].into_iter().chain(whitted) {
         for &workgroup in workgroups {
@@ -161,7 +161,8 @@ impl Way {
         let wishes = Wishes { precision: Some(kernel.precision()), error, ..Wishes::exact(width, height) };
         let plan = Plan::for_scene(scene, &wishes, limits)?;
         let has_boxes = plan.structures.choice.iter().any(|structure| *structure != Structure::None);
-        let cuts_nothing = (plan.cuts.least_weight, plan.cuts.least_shadowed, plan.bounds.total()) == (0.0, 0.0, 0.0);
+        let cuts_nothing = (plan.approximations.min_throughput, plan.approximations.min_shadowed, plan.bounds.total())
+            == (0.0, 0.0, 0.0);
         let is_as_another = without_boxes && !has_boxes || error > 0.0 && cuts_nothing;
         // The course's kernel has one light.
         let is_refused = kernel == Kernel::Course && scene.lights.len() != 1;
@@ -185,7 +186,7 @@ pub(super) mod tests {
     use super::*;
     use crate::gpu::DeviceKind;
 
-    pub fn device(float64: bool, octets: bool) -> DeviceDescription {
+    pub fn device(float64: bool, packets: bool) -> DeviceDescription {
         DeviceDescription {
             index: 0,
             name: "a device".to_owned(),
@@ -197,7 +198,7 @@ pub(super) mod tests {
             max_storage_bytes: 1 << 27,
             max_texels: 1 << 27,
             float64,
-            octets,
+            packets,
             lacks: Vec::new(),
         }
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Run, Scope};
-use crate::tracer::{Kernel, Requirements, Settings, WORKGROUP, WhittedRecords, kernel_frame};
+use crate::tracer::{Kernel, Requirements, Settings, WORKGROUP, WhittedRecords, scene_space};
 
 /// Runs in a row that are drawn by one shader.
 pub(super) fn by_shader(runs: &[Run]) -> impl Iterator<Item = &[Run]> {
@@ -27,9 +27,9 @@ pub fn instrumented(runs: &[Run], scope: Scope) -> Vec<Run> {
     of_one_shader.collect()
 }
 
-/// Cuts and upright boxes only leave out what a kernel reads.
+/// Approximations and axis-aligned boxes only leave out what a kernel reads.
 fn adds_accesses((name, is_on): State) -> bool {
-    is_on && !["upright boxes", "paths cut", "shadow rays cut"].contains(&name)
+    is_on && !["axis-aligned boxes", "paths cut", "shadow rays cut"].contains(&name)
 }
 
 /// A part of a kernel, and whether it is on.
@@ -57,19 +57,19 @@ pub(super) fn few_with_all(runs: &[Run], counts: impl Fn(State) -> bool) -> Vec<
 
 /// What plans turn on and off, with whether this run has it; `None` for the course's kernel, which is always the same.
 fn states(run: &Run) -> Option<[State; 16]> {
-    let &Settings { kernel, cuts, width, height, without_boxes, samples, scale, .. } = &run.settings;
+    let &Settings { kernel, approximations, width, height, without_boxes, samples, scale, .. } = &run.settings;
     if kernel == Kernel::Course {
         return None;
     }
-    let records = WhittedRecords::of(&run.scene, kernel_frame(&run.scene, kernel), kernel.precision(), [width, height]);
+    let records = WhittedRecords::of(&run.scene, scene_space(&run.scene, kernel), kernel.precision(), [width, height]);
     let max_depth = run.settings.max_depth.unwrap_or(run.scene.max_depth);
     // Whole, so that nothing new is forgotten here.
     let Requirements {
         kinds: [spheres, boxes, cylinders, cones],
         levels,
-        are_boxes_upright,
+        are_boxes_axis_aligned,
         highlights,
-        balls,
+        light_spheres,
         lights,
         shadows,
         reflections,
@@ -77,24 +77,24 @@ fn states(run: &Run) -> Option<[State; 16]> {
         samples: _,
         pixels: _,
         is_close_up: _,
-    } = Requirements::of(&records, &cuts, max_depth);
+    } = Requirements::of(&records, &approximations, max_depth);
     Some([
         ("spheres", spheres),
         ("boxes", boxes),
         ("cylinders", cylinders),
         ("cones", cones),
         ("boxes over solids", levels != [0; 4] && !without_boxes),
-        ("upright boxes", are_boxes_upright),
+        ("axis-aligned boxes", are_boxes_axis_aligned),
         ("highlights", highlights),
-        ("balls of lights", balls > 0),
+        ("light spheres", light_spheres > 0),
         ("lights", lights > 0),
         ("several lights", lights > 1),
         ("shadows", shadows),
         ("reflections", reflections),
-        ("paths cut", cuts.least_weight > 0.0),
-        ("shadow rays cut", cuts.least_shadowed > 0.0),
+        ("paths cut", approximations.min_throughput > 0.0),
+        ("shadow rays cut", approximations.min_shadowed > 0.0),
         ("several samples", samples > 1),
-        ("enlarged", scale < 1.0),
+        ("upscaled", scale < 1.0),
     ])
 }
 

@@ -7,7 +7,7 @@ use crate::scene::Camera;
 /// The rotation whose columns are the unit vectors, world frame, to the right on the picture, up on the picture and
 /// along the optical axis; its transpose is camera→world's inverse. The camera must be valid.
 ///
-/// Left-handed: the course's picture has `cross(−ahead, up)` on its left (COURSE.md).
+/// Left-handed: the course's picture has `cross(−ahead, up)` on its left (docs/course-work.md).
 pub(super) fn world_from_camera(camera: &Camera) -> DMat3 {
     let ahead = unit(camera.direction);
     let right = unit(ahead.cross(unit(camera.up)));

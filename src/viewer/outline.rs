@@ -161,7 +161,7 @@ fn cut_before(start: DVec3, end: DVec3, near: f64) -> Option<(DVec3, DVec3)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::reference::{Departure, PrimaryRays, Ray, Solids};
+    use crate::reference::{OriginSurface, PrimaryRays, Ray, Solids};
     use crate::scene::{Material, Primitive, SolidKind};
 
     fn cameras() -> Vec<Camera> {
@@ -277,7 +277,7 @@ mod tests {
             for point in points {
                 // From inside a convex solid, its surface is as far as the outline's point.
                 let ray = Ray { origin: middle, direction: point - middle };
-                let hit = surface.nearest(&ray, Departure::Free).unwrap();
+                let hit = surface.nearest(&ray, OriginSurface::Free).unwrap();
                 assert!((hit.t - 1.0).abs() < 1e-9, "{solid:?}: {point} at {}", hit.t);
             }
         }

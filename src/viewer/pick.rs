@@ -1,6 +1,6 @@
 //! What a click on the picture means.
 
-use crate::reference::{Departure, PrimaryRays, Solids};
+use crate::reference::{OriginSurface, PrimaryRays, Solids};
 use crate::scene::Scene;
 
 /// Index of the primitive that the pixel's primary ray meets first; columns count from the left and rows from the top
@@ -12,7 +12,7 @@ pub fn pick(scene: &Scene, width: u32, height: u32, column: u32, row: u32) -> Op
         return None;
     }
     let ray = PrimaryRays::new(&scene.camera, width, height).through(column, row);
-    Solids::new(&scene.primitives).nearest(&ray, Departure::Free).map(|hit| hit.primitive as usize)
+    Solids::new(&scene.primitives).nearest(&ray, OriginSurface::Free).map(|hit| hit.primitive as usize)
 }
 
 #[cfg(test)]

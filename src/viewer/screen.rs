@@ -161,7 +161,7 @@ impl Screen {
         let extent = swapchain.extent();
         self.in_flight.submit(swapchain.semaphores(image), |recorder| {
             self.canvas.record(recorder, place)?;
-            self.canvas.enlarge(recorder);
+            self.canvas.upscale(recorder);
             swapchain.record(recorder, image, background, self.canvas.picture(), corner, |commands| {
                 let drawn = painter.renderer.cmd_draw(commands, extent, widgets.pixels_per_point, &widgets.primitives);
                 failed = drawn.err();

@@ -22,9 +22,9 @@ const DRAWING: [(&str, &[Shader]); 2] = [
             shaders::WHITTED_F32,
             shaders::WHITTED_F64,
             shaders::WHITTED_PLAIN,
-            shaders::WHITTED_F32_OCTETS,
-            shaders::WHITTED_F64_OCTETS,
-            shaders::WHITTED_PLAIN_OCTETS,
+            shaders::WHITTED_F32_PACKETS,
+            shaders::WHITTED_F64_PACKETS,
+            shaders::WHITTED_PLAIN_PACKETS,
         ],
     ),
 ];
@@ -132,9 +132,9 @@ mod tests {
             "whitted_f32",
             "whitted_f64",
             "whitted_plain",
-            "whitted_f32_octets",
-            "whitted_f64_octets",
-            "whitted_plain_octets",
+            "whitted_f32_packets",
+            "whitted_f64_packets",
+            "whitted_plain_packets",
         ][..];
         for (file, others) in [("course/phong.glsl", whitted), ("whitted/shade.glsl", course)] {
             let path = folder.path().join(file);

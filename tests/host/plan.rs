@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use crate::scenes::{cube, light, material, mirror, mixed_scene, primitive, scene_of_a_light, sphere};
 use glam::DVec3;
-use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, Wishes, kernel_frame};
-use zerkalo::reference::{self, LIGHT_BALL};
+use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, Wishes, scene_space};
+use zerkalo::reference::{self, LIGHT_SPHERE};
 use zerkalo::scene::{Camera, Light, Material, Scene, Solid, SolidKind, gallery};
 use zerkalo::tracer::WhittedRecords;
 
@@ -66,12 +66,12 @@ fn balls_out_of_sight_are_those_that_no_picture_shows() {
         let (width, height) = (64, 28);
         let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &DEVICE).unwrap();
         let image = reference::render(&scene, width, height, &|_| ControlFlow::Continue(())).unwrap();
-        let shown = (0..).zip(&image.pixels).filter(|(_, pixel)| pixel.first_hit == LIGHT_BALL);
+        let shown = (0..).zip(&image.pixels).filter(|(_, pixel)| pixel.first_hit == LIGHT_SPHERE);
         let shown: Vec<[u32; 2]> = shown.map(|(i, _)| [i % width, i / width]).collect();
-        assert!(plan.balls.choice == 1 || shown.is_empty(), "{scene:?}");
-        assert_eq!(plan.cuts.balls, plan.balls.choice > 0);
-        let Some(area) = Area::of_balls(&scene, f64::from(width) / f64::from(height), 0.0) else {
-            assert_eq!(plan.balls.choice, 0);
+        assert!(plan.light_spheres.choice == 1 || shown.is_empty(), "{scene:?}");
+        assert_eq!(plan.approximations.light_spheres, plan.light_spheres.choice > 0);
+        let Some(area) = Area::of_light_spheres(&scene, f64::from(width) / f64::from(height), 0.0) else {
+            assert_eq!(plan.light_spheres.choice, 0);
             continue;
         };
         let area = area.pixels([width, height]);
@@ -102,9 +102,9 @@ fn lights_matter_where_some_surface_sends_some_of_them_back() {
     let mut dark = two_balls(material(0.1, 0.5, 0.5));
     dark.lights.push(Light { intensity: DVec3::ZERO, ..light(0.0, 2.0, 0.0) });
     let plan = exact(&dark);
-    let seen = Reason::BallsInSight { lights: 2, seen: 1 };
+    let seen = Reason::LightSpheresInSight { lights: 2, seen: 1 };
     assert_eq!(
-        (plan.balls.choice, plan.balls.reason),
+        (plan.light_spheres.choice, plan.light_spheres.reason),
         (1, seen),
         "a dark ball is still seen, one behind the camera is not"
     );
@@ -188,20 +188,23 @@ fn generations_are_those_that_can_add_light() {
 #[test]
 fn boxes_are_upright_unless_one_is_turned() {
     let plain = material(0.1, 0.5, 0.0);
-    assert_eq!(exact(&two_balls(plain.clone())).upright_boxes.reason, Reason::NoBoxes);
+    assert_eq!(exact(&two_balls(plain.clone())).axis_aligned_boxes.reason, Reason::NoBoxes);
     let mut boxes = scene_of(vec![(cube(DVec3::ZERO, 1.0), plain.clone()), (cube(DVec3::X * 3.0, 1.0), plain.clone())]);
-    assert_eq!((exact(&boxes).upright_boxes.choice, exact(&boxes).upright_boxes.reason), (true, Reason::NoBoxTurned));
+    assert_eq!(
+        (exact(&boxes).axis_aligned_boxes.choice, exact(&boxes).axis_aligned_boxes.reason),
+        (true, Reason::NoBoxRotated)
+    );
     let turn_by = |scene: &mut Scene, degrees: DVec3| {
         if let Solid::Box { rotation_degrees, .. } = &mut scene.primitives[1].solid {
             *rotation_degrees = degrees;
         }
     };
     turn_by(&mut boxes, DVec3::new(360.0, -720.0, 0.0));
-    assert!(exact(&boxes).upright_boxes.choice, "a whole turn is none");
+    assert!(exact(&boxes).axis_aligned_boxes.choice, "a whole turn is none");
     turn_by(&mut boxes, DVec3::new(0.0, 1e-9, 0.0));
     let plan = exact(&boxes);
-    assert!(!plan.upright_boxes.choice);
-    assert_eq!(plan.upright_boxes.reason, Reason::BoxesTurned { boxes: 2, turned: 1 });
+    assert!(!plan.axis_aligned_boxes.choice);
+    assert_eq!(plan.axis_aligned_boxes.reason, Reason::BoxesRotated { boxes: 2, rotated: 1 });
 }
 
 #[test]
@@ -220,7 +223,7 @@ fn a_precision_asked_for_is_taken_or_refused() {
 fn f64_is_chosen_where_f32_is_not_known_to_keep_the_error() {
     let scene = mixed_scene();
     let precision = |scene: &Scene, error| within(scene, error).precision;
-    // Balls that mirror each other may enlarge what rounding does: pixels are tried.
+    // Spheres that mirror each other may magnify what rounding does: pixels are tried.
     assert!(matches!(exact(&scene).precision.reason, Reason::RoundingIsHarmless { .. }));
     assert_eq!(exact(&scene).precision.choice, Precision::F32);
     let dull = Scene { max_depth: 1, ..scene.clone() };
@@ -232,7 +235,7 @@ fn f64_is_chosen_where_f32_is_not_known_to_keep_the_error() {
     assert!(shift_pixels > 0.0 && shift_pixels < 0.01, "{shift_pixels}");
 
     let finer = precision(&scene, 1.0 / 511.0);
-    assert_eq!((finer.choice, finer.reason), (Precision::F64, Reason::RoundingExceedsError { bar: 1.0 / 510.0 }));
+    assert_eq!((finer.choice, finer.reason), (Precision::F64, Reason::RoundingExceedsError { tolerance: 1.0 / 510.0 }));
     let mut bright = scene.clone();
     bright.lights[0].intensity = DVec3::splat(10.0);
     assert_eq!(precision(&bright, 1.0 / 510.0).choice, Precision::F64, "rounding grows with the light");
@@ -275,10 +278,10 @@ fn a_scene_fits_the_device_exactly_where_the_kernels_records_do() {
         scene.primitives.push(primitive);
         for precision in [Precision::F32, Precision::F64] {
             let row_bytes = if precision == Precision::F32 { 16 } else { 32 };
-            let records = WhittedRecords::of(&scene, kernel_frame(&scene, precision), precision, [8, 8]);
-            let outlines = records.solids.outlines.len() as u64 * 16;
+            let records = WhittedRecords::of(&scene, scene_space(&scene, precision), precision, [8, 8]);
+            let proxies = records.solids.proxies.len() as u64 * 16;
             let own = records.buffers().map(|(_, rows)| rows.len() as u64 * row_bytes);
-            let largest = own.into_iter().chain([outlines]).max().unwrap();
+            let largest = own.into_iter().chain([proxies]).max().unwrap();
             let wishes = Wishes { precision: Some(precision), ..Wishes::exact(8, 8) };
             let fits = |max_array_bytes| Plan::for_scene(&scene, &wishes, &Limits { max_array_bytes, ..DEVICE });
             assert!(fits(largest).is_ok());
@@ -311,8 +314,8 @@ fn without_an_error_nothing_is_cut() {
     for entry in gallery::entries() {
         let plan = exact(&gallery::scene(&entry.name).unwrap());
         assert_eq!(plan.bounds.total(), 0.0);
-        assert_eq!((plan.cuts.least_weight, plan.cuts.least_shadowed), (0.0, 0.0));
-        assert_eq!(plan.cuts.highlights, plan.highlights.choice);
+        assert_eq!((plan.approximations.min_throughput, plan.approximations.min_shadowed), (0.0, 0.0));
+        assert_eq!(plan.approximations.highlights, plan.highlights.choice);
     }
 }
 
@@ -326,7 +329,7 @@ fn a_closed_room_is_cut_where_its_paths_have_faded() {
     assert!(plan.bounds.generations > 0.0 && plan.bounds.shadows > 0.0 && plan.bounds.total() <= 1.0 / 510.0);
 
     let perfect = within(&room(mirror()), 1.0 / 510.0);
-    assert_eq!((perfect.cuts.least_weight, perfect.generations.choice), (0.0, 200), "its paths never fade");
+    assert_eq!((perfect.approximations.min_throughput, perfect.generations.choice), (0.0, 200), "its paths never fade");
     assert!(perfect.bounds.total() <= 1.0 / 510.0);
 }
 
@@ -337,7 +340,7 @@ fn a_larger_error_cuts_no_less() {
     for error in [1e-9, 1e-6, 1e-4, 1e-3, 1e-2, 0.1, 0.5] {
         let plan = within(&scene, error);
         assert!(plan.generations.choice <= last.generations.choice, "{error}");
-        assert!(plan.cuts.least_weight >= last.cuts.least_weight, "{error}");
+        assert!(plan.approximations.min_throughput >= last.approximations.min_throughput, "{error}");
         assert!(plan.bounds.total() <= error && plan.bounds.total() > 0.3 * error, "{:?} of {error}", plan.bounds);
         last = plan;
     }
@@ -347,7 +350,7 @@ fn a_larger_error_cuts_no_less() {
 fn highlights_go_where_all_of_them_fit_in_the_error() {
     let faint = two_balls(material(0.1, 0.5, 1e-4));
     let plan = within(&faint, 1.0 / 510.0);
-    assert!(!plan.highlights.choice && !plan.cuts.highlights);
+    assert!(!plan.highlights.choice && !plan.approximations.highlights);
     assert!(matches!(plan.highlights.reason, Reason::HighlightsAreFaint { bound } if bound == plan.bounds.highlights));
     assert!(within(&two_balls(material(0.1, 0.5, 0.1)), 1.0 / 510.0).highlights.choice);
     assert_eq!(plan.generations.choice, 1, "and so does what is mirrored");
@@ -356,9 +359,9 @@ fn highlights_go_where_all_of_them_fit_in_the_error() {
 #[test]
 fn the_primary_ray_is_never_cut_however_large_the_error() {
     let plan = within(&mixed_scene(), 1e30);
-    assert!(plan.cuts.least_weight < 1.0);
+    assert!(plan.approximations.min_throughput < 1.0);
     assert_eq!(plan.generations.choice, 1);
-    assert_eq!(plan.cuts.least_shadowed, f32::MAX, "no shadow ray is traced");
+    assert_eq!(plan.approximations.min_shadowed, f32::MAX, "no shadow ray is traced");
     assert!(plan.bounds.total() <= 1e30);
 }
 
@@ -367,7 +370,7 @@ fn cuts_smaller_than_an_f32_can_say_are_not_made() {
     let mut scene = room(material(0.1, 0.3, 0.5));
     scene.lights[0].intensity = DVec3::splat(3e38);
     let plan = within(&scene, 1e-3);
-    assert_eq!((plan.cuts.least_weight, plan.bounds.generations), (0.0, 0.0));
+    assert_eq!((plan.approximations.min_throughput, plan.bounds.generations), (0.0, 0.0));
     assert!(plan.bounds.total() <= 1e-3);
 }
 

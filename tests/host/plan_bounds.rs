@@ -4,15 +4,15 @@ use crate::budget::random_scene;
 use crate::random::Random;
 use glam::DVec3;
 use rayon::prelude::*;
-use zerkalo::plan::{Cuts, Limits, Plan, Precision, Wishes};
-use zerkalo::reference::{Departure, Hit, LIGHT_BALL, PrimaryRays, Ray, Solids, World};
+use zerkalo::plan::{Approximations, Limits, Plan, Precision, Wishes};
+use zerkalo::reference::{Hit, LIGHT_SPHERE, OriginSurface, PrimaryRays, Ray, Solids, World};
 use zerkalo::scene::{Material, Scene};
 
 /// The accurate model over the reference's intersections, with a plan's cuts.
 struct Model<'a> {
     scene: &'a Scene,
     solids: Solids,
-    cuts: Cuts,
+    approximations: Approximations,
     generations: u32,
 }
 
@@ -25,34 +25,34 @@ struct LeftOut {
 }
 
 impl<'a> Model<'a> {
-    fn new(scene: &'a Scene, cuts: Cuts, generations: u32) -> Self {
-        Self { scene, solids: Solids::new(&scene.primitives), cuts, generations }
+    fn new(scene: &'a Scene, approximations: Approximations, generations: u32) -> Self {
+        Self { scene, solids: Solids::new(&scene.primitives), approximations, generations }
     }
 
     /// Of a primary ray that sees no light's ball, linear RGB.
     fn trace(&self, mut ray: Ray, left_out: &mut LeftOut) -> DVec3 {
-        let mut departure = Departure::Free;
+        let mut origin_surface = OriginSurface::Free;
         let mut weight = 1.0;
         let mut color = DVec3::ZERO;
         for generation in 0..self.scene.max_depth {
-            if weight <= f64::from(self.cuts.least_weight) || generation == self.generations {
+            if weight <= f64::from(self.approximations.min_throughput) || generation == self.generations {
                 left_out.paths += u32::from(weight > 0.0);
                 break;
             }
-            let Some(hit) = self.solids.nearest(&ray, departure) else {
+            let Some(hit) = self.solids.nearest(&ray, origin_surface) else {
                 color = limited(color + weight * self.scene.background);
                 break;
             };
             let material = &self.scene.primitives[hit.primitive as usize].material;
-            color = limited(color + weight * self.emitted(&hit, ray.direction, material, weight, left_out));
+            color = limited(color + weight * self.local_radiance(&hit, ray.direction, material, weight, left_out));
             weight *= material.specular;
             ray = Ray { origin: hit.point, direction: unit(reflected(ray.direction, hit.normal)) };
-            departure = hit.departure();
+            origin_surface = hit.origin_surface();
         }
         color
     }
 
-    fn emitted(&self, hit: &Hit, ray: DVec3, material: &Material, weight: f64, left_out: &mut LeftOut) -> DVec3 {
+    fn local_radiance(&self, hit: &Hit, ray: DVec3, material: &Material, weight: f64, left_out: &mut LeftOut) -> DVec3 {
         let mut sum = material.ambient * material.color;
         for light in &self.scene.lights {
             let to_light = unit(light.position - hit.point);
@@ -61,15 +61,15 @@ impl<'a> Model<'a> {
                 continue;
             }
             let highlight = fifth_power(reflected(-to_light, hit.normal).dot(-ray).max(0.0));
-            left_out.highlights += u32::from(!self.cuts.highlights && material.specular * highlight > 0.0);
-            let highlight = if self.cuts.highlights { highlight } else { 0.0 };
+            left_out.highlights += u32::from(!self.approximations.highlights && material.specular * highlight > 0.0);
+            let highlight = if self.approximations.highlights { highlight } else { 0.0 };
             let received = material.diffuse * material.color * cosine + material.specular * highlight;
-            let sent = received * light.intensity;
-            if weight * sent.max_element() <= f64::from(self.cuts.least_shadowed) {
-                left_out.shadow_rays += u32::from(sent != DVec3::ZERO);
-                sum = limited(sum + 0.5 * sent);
-            } else if !self.solids.hide(light.position, hit.point, hit.departure()) {
-                sum = limited(sum + sent);
+            let direct = received * light.intensity;
+            if weight * direct.max_element() <= f64::from(self.approximations.min_shadowed) {
+                left_out.shadow_rays += u32::from(direct != DVec3::ZERO);
+                sum = limited(sum + 0.5 * direct);
+            } else if !self.solids.hide(light.position, hit.point, hit.origin_surface()) {
+                sum = limited(sum + direct);
             }
         }
         sum
@@ -113,14 +113,14 @@ fn change(scene: &Scene, error: f64) -> Change {
     assert!(bound <= error, "{bound} of {error}: {plan:?}");
 
     let world = World::new(scene);
-    let exact = Model::new(scene, Cuts::NONE, scene.max_depth);
-    let cut = Model::new(scene, plan.cuts, plan.generations.choice);
+    let exact = Model::new(scene, Approximations::NONE, scene.max_depth);
+    let cut = Model::new(scene, plan.approximations, plan.generations.choice);
     let rays = PrimaryRays::new(&scene.camera, width, height);
     let mut change = Change::default();
     for (row, column) in (0..height).flat_map(|row| (0..width).map(move |column| (row, column))) {
         let ray = rays.through(column, row);
         let seen = world.look_along(ray);
-        if seen.first_hit == LIGHT_BALL {
+        if seen.first_hit == LIGHT_SPHERE {
             continue;
         }
         let whole = exact.trace(ray, &mut LeftOut::default());
@@ -128,7 +128,12 @@ fn change(scene: &Scene, error: f64) -> Change {
         // Of sums over at most 60 generations of up to 4 lights, each relative to the sum.
         let rounding = 300.0 * f64::EPSILON * whole.max_element();
         let difference = (cut.trace(ray, &mut change.left_out) - whole).abs().max_element();
-        assert!(difference <= bound + rounding, "{difference} above {bound}: {:?} {:?}", plan.cuts, plan.bounds);
+        assert!(
+            difference <= bound + rounding,
+            "{difference} above {bound}: {:?} {:?}",
+            plan.approximations,
+            plan.bounds
+        );
         if bound > 0.0 && difference > rounding {
             change.largest = change.largest.max(difference / bound);
         }

@@ -3,7 +3,7 @@
 use crate::oracle::{Subject, U, primitive, ray};
 use crate::random::Random;
 use glam::DVec3;
-use zerkalo::reference::{Departure, Side, Solids};
+use zerkalo::reference::{OriginSurface, Side, Solids};
 use zerkalo::scene::{Solid, SolidKind};
 
 const SOLIDS: u64 = 400;
@@ -21,7 +21,7 @@ fn a_ray_leaving_outwards_never_meets_its_solid_nor_one_that_touches_it_there() 
             let twins = Solids::new(&[primitive(subject.solid.clone()), primitive(subject.solid.clone())]);
             for _ in 0..RAYS_A_SOLID {
                 let incoming = random.ray_at(&subject);
-                let Some(hit) = twins.nearest(&incoming, Departure::Free) else { continue };
+                let Some(hit) = twins.nearest(&incoming, OriginSurface::Free) else { continue };
                 assert_eq!(hit.primitive, 0, "a tie goes to the lowest index");
                 if hit.side == Side::Inside {
                     continue;
@@ -30,7 +30,7 @@ fn a_ray_leaving_outwards_never_meets_its_solid_nor_one_that_touches_it_there() 
                 for _ in 0..LEAVING_A_HIT {
                     let direction = random.direction_into(hit.normal);
                     leaving += 1;
-                    let again = twins.nearest(&ray(hit.point, direction), hit.departure());
+                    let again = twins.nearest(&ray(hit.point, direction), hit.origin_surface());
                     met.extend(again.map(|again| format!("{again:?} from {hit:?} of {:?}", subject.solid)));
                 }
             }
@@ -51,14 +51,15 @@ fn a_ray_leaving_inwards_meets_the_exit_of_its_solid() {
             let alone = Solids::new(&[primitive(subject.solid.clone())]);
             for _ in 0..RAYS_A_SOLID {
                 let incoming = random.ray_at(&subject);
-                let Some(mut hit) = alone.nearest(&incoming, Departure::Free).filter(|hit| hit.side == Side::Inside)
+                let Some(mut hit) =
+                    alone.nearest(&incoming, OriginSurface::Free).filter(|hit| hit.side == Side::Inside)
                 else {
                     continue;
                 };
                 for _ in 0..LEAVING_A_HIT {
                     let direction = random.direction_into(hit.normal);
                     leaving += 1;
-                    let Some(exit) = alone.nearest(&ray(hit.point, direction), hit.departure()) else {
+                    let Some(exit) = alone.nearest(&ray(hit.point, direction), hit.origin_surface()) else {
                         lost += 1;
                         break;
                     };
@@ -70,9 +71,13 @@ fn a_ray_leaving_inwards_meets_the_exit_of_its_solid() {
                         Solid::Cone { half_angle_degrees, .. } => half_angle_degrees.to_radians().cos(),
                         _ => 1.0,
                     };
-                    let bar = 8.0 * U * (exit.point.abs().max_element() + subject.size) / rim_sine;
+                    let tolerance = 8.0 * U * (exit.point.abs().max_element() + subject.size) / rim_sine;
                     let error = subject.distance(exit.point);
-                    assert!(error <= bar, "{exit:?} is {error} off: {direction:?} from {hit:?} in {:?}", subject.solid);
+                    assert!(
+                        error <= tolerance,
+                        "{exit:?} is {error} off: {direction:?} from {hit:?} in {:?}",
+                        subject.solid
+                    );
                     hit = exit;
                 }
             }
@@ -95,6 +100,6 @@ fn a_ray_through_the_contact_of_two_spheres_meets_one_of_them() {
             continue;
         }
         let through = ray(origin, (DVec3::X - origin).normalize());
-        assert!(solids.nearest(&through, Departure::Free).is_some(), "{through:?} leaks");
+        assert!(solids.nearest(&through, OriginSurface::Free).is_some(), "{through:?} leaks");
     }
 }

@@ -1,4 +1,4 @@
-//! The reference against 384-bit arithmetic over random solids, rays and scales: no violation of any bar.
+//! The reference against 384-bit arithmetic over random solids, rays and scales: no violation of any tolerance.
 
 use crate::oracle::{Report, Subject};
 use crate::random::Random;

@@ -2,7 +2,7 @@
 
 use crate::scenes::{cube, light, material, mirror, mixed_scene, moved_and_scaled, picture, primitive, sphere};
 use glam::DVec3;
-use zerkalo::reference::{BACKGROUND, Image64, LIGHT_BALL, Pixel, Ray, World};
+use zerkalo::reference::{BACKGROUND, Image64, LIGHT_SPHERE, Pixel, Ray, World};
 use zerkalo::scene::{Camera, Light, Scene, Solid};
 
 pub fn look(scene: &Scene, origin: DVec3, direction: DVec3) -> Pixel {
@@ -14,7 +14,7 @@ pub fn look(scene: &Scene, origin: DVec3, direction: DVec3) -> Pixel {
 fn difference(a: &Image64, b: &Image64) -> (f64, usize) {
     let mut largest = 0.0f64;
     let mut differing_paths = 0;
-    for (a, b) in a.pixels.iter().zip(&b.pixels).filter(|(a, _)| a.first_hit < LIGHT_BALL) {
+    for (a, b) in a.pixels.iter().zip(&b.pixels).filter(|(a, _)| a.first_hit < LIGHT_SPHERE) {
         if a.path == b.path {
             largest = largest.max((a.color - b.color).abs().max_element());
         } else {
@@ -28,7 +28,7 @@ fn difference(a: &Image64, b: &Image64) -> (f64, usize) {
 fn sc_a_scene_scaled_by_powers_of_ten_gives_the_same_picture() {
     let scene = mixed_scene();
     let original = picture(&scene, 96, 64);
-    let seen = original.pixels.iter().filter(|pixel| pixel.first_hit < LIGHT_BALL).count();
+    let seen = original.pixels.iter().filter(|pixel| pixel.first_hit < LIGHT_SPHERE).count();
     assert!(seen > 1_200, "only {seen} pixels show a solid");
     for exponent in -6..=6 {
         let scaled = picture(&moved_and_scaled(&scene, DVec3::ZERO, 10f64.powi(exponent)), 96, 64);
@@ -246,7 +246,7 @@ fn specks_far_from_the_world_s_origin_are_drawn_as_near_it() {
     let far = picture(&scene_at(DVec3::new(2f64.powi(24), -2f64.powi(23), 2f64.powi(24))), 64, 40);
     let is_other = |(a, b): &(&Pixel, &Pixel)| (a.color - b.color).abs().max_element() > 1e-9;
     let differing = near.pixels.iter().zip(&far.pixels).filter(is_other).count();
-    let solid = near.pixels.iter().filter(|pixel| pixel.first_hit < LIGHT_BALL).count();
+    let solid = near.pixels.iter().filter(|pixel| pixel.first_hit < LIGHT_SPHERE).count();
     // Of edges that pass a pixel's very centre.
     assert!(differing <= 2 && solid > 300, "{differing} of {solid}");
 }

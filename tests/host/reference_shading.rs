@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 use crate::reference_pictures::look;
 use crate::scenes::{cube, light, material, mixed_scene, picture, primitive, sphere};
 use glam::DVec3;
-use zerkalo::reference::{BACKGROUND, Departure, LIGHT_BALL, Pixel, PrimaryRays, Ray, RenderError, World, render};
+use zerkalo::reference::{
+    BACKGROUND, LIGHT_SPHERE, OriginSurface, Pixel, PrimaryRays, Ray, RenderError, World, render,
+};
 use zerkalo::scene::{Camera, Light, Projection, Scene};
 
 #[test]
@@ -15,7 +17,9 @@ fn n_0_a_scene_without_primitives_is_background_and_light_balls() {
     let (seen, balls): (Vec<Pixel>, Vec<Pixel>) =
         picture.pixels.iter().partition(|pixel| pixel.first_hit == BACKGROUND);
     assert!(seen.iter().all(|pixel| *pixel == background));
-    assert!(!balls.is_empty() && balls.iter().all(|pixel| (pixel.first_hit, pixel.color) == (LIGHT_BALL, DVec3::ONE)));
+    assert!(
+        !balls.is_empty() && balls.iter().all(|pixel| (pixel.first_hit, pixel.color) == (LIGHT_SPHERE, DVec3::ONE))
+    );
 }
 
 #[test]
@@ -104,7 +108,7 @@ fn a_light_ball_is_seen_by_primary_rays_only_and_blocks_nothing() {
         primitives: vec![primitive(sphere(DVec3::ZERO, 1.0), material(0.0, 1.0, 1.0))],
         ..Scene::default()
     };
-    assert_eq!(look(&scene, DVec3::Z * -5.0, DVec3::Z).first_hit, LIGHT_BALL);
+    assert_eq!(look(&scene, DVec3::Z * -5.0, DVec3::Z).first_hit, LIGHT_SPHERE);
     // From between ball and sphere: both lights arrive, and the reflected ray passes through the ball to the background.
     let seen = look(&scene, DVec3::Z * -2.0, DVec3::Z);
     let expected = 2.0 * (DVec3::new(0.3, 0.5, 0.7) + 1.0) + scene.background;
@@ -146,7 +150,7 @@ fn an_empty_picture_and_a_cancelled_one_are_errors() {
 fn a_hit_knows_its_place_in_the_scene() {
     let scene = mixed_scene();
     let towards_second = Ray { origin: DVec3::new(-3.75, 1.25, -14.0), direction: DVec3::Z };
-    let hit = World::new(&scene).nearest(&towards_second, Departure::Free).expect("a hit");
+    let hit = World::new(&scene).nearest(&towards_second, OriginSurface::Free).expect("a hit");
     assert_eq!(hit.primitive, 1);
     assert!((hit.t - 13.3).abs() < 1e-14 && (hit.normal - DVec3::NEG_Z).length() < 1e-15);
 }

@@ -1,4 +1,4 @@
-//! Closed forms and the release catalogue of NUMERICS.md, a ray at a time. DG (refused at load) is the scene module's.
+//! Closed forms and the release catalogue of docs/numerics.md, a ray at a time. DG (refused at load) is the scene module's.
 
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 
@@ -382,7 +382,7 @@ fn denormal_sizes_yield_no_nan() {
     ] {
         let reference = zerkalo::reference::Solids::new(&[primitive(solid.clone())]);
         let ray = ray(DVec3::new(-1.0, 0.0, 0.0), DVec3::X);
-        let hit = reference.nearest(&ray, zerkalo::reference::Departure::Free);
+        let hit = reference.nearest(&ray, zerkalo::reference::OriginSurface::Free);
         assert!(hit.is_none_or(|hit| hit.t.is_finite() && hit.point.is_finite()), "{solid:?}: {hit:?}");
     }
 }

@@ -9,7 +9,7 @@ use crate::common::TestDevice;
 use crate::spirv_walk::{Kernel, Reached};
 use glam::DVec3;
 use zerkalo::gpu::{Shader, shaders};
-use zerkalo::plan::{Limits, Plan, Precision, Wishes, kernel_frame};
+use zerkalo::plan::{Limits, Plan, Precision, Wishes, scene_space};
 use zerkalo::scene::{Light, Material, Scene, Solid, SolidKind, gallery};
 use zerkalo::tracer::{Requirements, WhittedRecords};
 
@@ -36,7 +36,7 @@ fn without(feature: &str) -> Scene {
         "boxes" => drop(&mut scene, SolidKind::Box),
         "cylinders" => drop(&mut scene, SolidKind::Cylinder),
         "cones" => drop(&mut scene, SolidKind::Cone),
-        "turned boxes" => {
+        "rotated boxes" => {
             for primitive in &mut scene.primitives {
                 if let Solid::Box { rotation_degrees, .. } = &mut primitive.solid {
                     *rotation_degrees = DVec3::ZERO;
@@ -51,7 +51,7 @@ fn without(feature: &str) -> Scene {
                 *left >= 0
             });
         }
-        "light balls" => scene.lights.iter_mut().for_each(|light| light.position = scene.camera.position * 2.0),
+        "light spheres" => scene.lights.iter_mut().for_each(|light| light.position = scene.camera.position * 2.0),
         "several lights" => scene.lights.truncate(1),
         "lights" => scene.lights.clear(),
         "shadows" => scene.primitives.truncate(1),
@@ -67,8 +67,8 @@ fn reached(device: &TestDevice, kernel: &Kernel, scene: &Scene, precision: Preci
     let limits = Limits { float64: true, max_array_bytes: 1 << 27, ..Limits::PROMISED };
     let wishes = Wishes { precision: Some(precision), ..Wishes::exact(SIZE.0, SIZE.1) };
     let plan = Plan::for_scene(scene, &wishes, &limits).unwrap();
-    let records = WhittedRecords::of(scene, kernel_frame(scene, precision), precision, [SIZE.0, SIZE.1]);
-    let requirements = Requirements::of(&records, &plan.cuts, plan.generations.choice);
+    let records = WhittedRecords::of(scene, scene_space(scene, precision), precision, [SIZE.0, SIZE.1]);
+    let requirements = Requirements::of(&records, &plan.approximations, plan.generations.choice);
     kernel.reached(&requirements.constants(device, precision, plan.workgroup.choice).unwrap())
 }
 
@@ -78,11 +78,11 @@ const GONE: [(&str, &[&str]); 11] = [
     ("boxes", &["box_rows", "box(", "search_boxes(", "key_of_box(", "try_eight_boxes("]),
     ("cylinders", &["cylinder_rows", "cylinder(", "search_cylinders(", "key_of_cylinder("]),
     ("cones", &["cone_rows", "cone(", "search_cones(", "key_of_cone("]),
-    ("turned boxes", &[]),
+    ("rotated boxes", &[]),
     ("structures", &["enter_boxes(", "boxes_ahead("]),
-    ("light balls", &["may_meet_a_ball(", "ball_ahead("]),
+    ("light spheres", &["may_meet_a_light_sphere(", "light_sphere_ahead("]),
     ("several lights", &[]),
-    ("lights", &["light(", "ball_ahead(", "towards(", "sent_back(", "is_before("]),
+    ("lights", &["light(", "light_sphere_ahead(", "towards(", "direct_radiance(", "is_before("]),
     ("shadows", &["is_before("]),
     ("mirrors", &["mirrored(", "fifth_power("]),
 ];
@@ -108,13 +108,13 @@ fn leaves_nothing_behind(shader: &Shader, precision: Precision) {
 #[test]
 fn absent_features_leave_nothing_in_the_f32_kernel() {
     leaves_nothing_behind(&shaders::WHITTED_F32, Precision::F32);
-    leaves_nothing_behind(&shaders::WHITTED_F32_OCTETS, Precision::F32);
+    leaves_nothing_behind(&shaders::WHITTED_F32_PACKETS, Precision::F32);
 }
 
 #[test]
 fn absent_features_leave_nothing_in_the_f64_kernel() {
     leaves_nothing_behind(&shaders::WHITTED_F64, Precision::F64);
-    leaves_nothing_behind(&shaders::WHITTED_F64_OCTETS, Precision::F64);
+    leaves_nothing_behind(&shaders::WHITTED_F64_PACKETS, Precision::F64);
 }
 
 /// What a box's turn is read from, and what walks over lights.
@@ -123,7 +123,7 @@ fn upright_boxes_read_no_axes_and_one_light_has_no_loop() {
     let device = TestDevice::open();
     let kernel = Kernel::of(&shaders::WHITTED_F32);
     let all = reached(&device, &kernel, &all_features(), Precision::F32);
-    let upright = reached(&device, &kernel, &without("turned boxes"), Precision::F32);
+    let upright = reached(&device, &kernel, &without("rotated boxes"), Precision::F32);
     assert_eq!(all.fetches - upright.fetches, 3, "rows of the axes' errors");
     let one_light = reached(&device, &kernel, &without("several lights"), Precision::F32);
     assert_eq!(all.back_edges - one_light.back_edges, 3, "whether its ball may be met, of its ball, and of its light");
@@ -133,7 +133,7 @@ fn upright_boxes_read_no_axes_and_one_light_has_no_loop() {
 fn one_sample_a_pixel_reads_no_picture() {
     let device = TestDevice::open();
     let requirements = Requirements { kinds: [true; 4], ..Requirements::default() };
-    for shader in [&shaders::WHITTED_F32, &shaders::WHITTED_F32_OCTETS, &shaders::WHITTED_F64] {
+    for shader in [&shaders::WHITTED_F32, &shaders::WHITTED_F32_PACKETS, &shaders::WHITTED_F64] {
         let reached = |samples| {
             let requirements = Requirements { samples, ..requirements };
             Kernel::of(shader).reached(&requirements.constants(&device, Precision::F32, [8, 8]).unwrap())

@@ -167,14 +167,14 @@ fn another_build_of_the_kernel_that_draws_draws_from_then_on() {
     easel.canvas.replace_shader(shaders::WHITTED_F32).unwrap();
     assert_eq!(easel.draw(&scene).1, 0, "another kernel's build, and the same one: nothing is traced anew");
     easel.canvas.replace_shader(build(shaders::WHITTED_F32, shaders::WHITTED_PLAIN)).unwrap();
-    easel.canvas.replace_shader(build(shaders::WHITTED_F32_OCTETS, shaders::WHITTED_PLAIN_OCTETS)).unwrap();
+    easel.canvas.replace_shader(build(shaders::WHITTED_F32_PACKETS, shaders::WHITTED_PLAIN_PACKETS)).unwrap();
     assert!(easel.draw(&scene).0 == plain);
     // It is kept while another kernel draws, and given up for a newer one.
     easel.canvas.use_kernel(Kernel::Course).unwrap();
     easel.draw(&scene);
     easel.canvas.use_kernel(ACCURATE).unwrap();
     assert!(easel.draw(&scene).0 == plain);
-    for own in [shaders::WHITTED_F32, shaders::WHITTED_F32_OCTETS] {
+    for own in [shaders::WHITTED_F32, shaders::WHITTED_F32_PACKETS] {
         easel.canvas.replace_shader(own).unwrap();
     }
     assert!(easel.draw(&scene).0 == accurate);
@@ -212,7 +212,7 @@ fn the_accurate_kernel_neither_traces_nor_uploads_a_scene_unchanged() {
     assert!(easel.canvas.use_kernel(Kernel::Whitted(Precision::F32)).unwrap());
     assert!(!easel.canvas.use_kernel(Kernel::Whitted(Precision::F32)).unwrap(), "it is the same");
     let scene = scene("four");
-    // Rows of four numbers, eight of each kind for one: outlines, records, materials; view, light.
+    // Rows of four numbers, eight of each kind for one: proxies, records, materials; view, light.
     let rows = 8 * ((1 + 2 + 2 + 2) + (1 + 7 + 4 + 4) + 4 * 2) + (6 + 2);
     assert_eq!(easel.uploaded(|easel| drop(easel.draw(&scene))), rows * 16);
     assert_eq!(easel.uploaded(|easel| assert_eq!(easel.draw(&scene).1, 0)), 0);

@@ -7,7 +7,7 @@ use crate::random::Random;
 use crate::scenes::picture;
 use crate::tracers::Tracers;
 use glam::DVec3;
-use zerkalo::measure::{Difference, bars};
+use zerkalo::measure::{Difference, tolerances};
 use zerkalo::plan::{Limits, Plan, Precision, Wishes};
 use zerkalo::scene::Scene;
 use zerkalo::tracer::{Kernel, Settings};
@@ -60,7 +60,11 @@ fn what_the_kernel_leaves_out_changes_no_pixel_by_more_than_the_bound() {
             for (&whole, cut) in whole.iter().zip(cut) {
                 let difference = (whole - cut).abs().max_element();
                 let rounding = rounding(&scene, precision, whole);
-                assert!(difference <= bound + rounding, "seed {seed}: {difference} above {bound}: {:?}", plan.cuts);
+                assert!(
+                    difference <= bound + rounding,
+                    "seed {seed}: {difference} above {bound}: {:?}",
+                    plan.approximations
+                );
                 if bound > 0.0 && difference > rounding {
                     is_changed = true;
                     largest = largest.max((difference - rounding) / bound);
@@ -73,7 +77,7 @@ fn what_the_kernel_leaves_out_changes_no_pixel_by_more_than_the_bound() {
     assert!(changed_scenes > 100);
 }
 
-/// Of scenes whose light is about 1, for which the kernel's own bars are set, and whose rays are not spent by rounding.
+/// Of scenes whose light is about 1, for which the kernel's own tolerances are set, and whose rays are not spent by rounding.
 #[test]
 fn pictures_within_an_allowed_error_are_the_references_to_that_error() {
     let device = TestDevice::open();
@@ -89,8 +93,8 @@ fn pictures_within_an_allowed_error_are_the_references_to_that_error() {
             let error = if seed.is_multiple_of(2) { 1.0 / 510.0 } else { 1.0 / 50.0 };
             let plan = plan(&scene, precision, error);
             let ours = draw_planned(&mut tracers, &scene, &plan);
-            let (bar, _) = bars(precision);
-            let allowed = plan.bounds.total() + bar;
+            let (tolerance, _) = tolerances(precision);
+            let allowed = plan.bounds.total() + tolerance;
             let difference = Difference::between(&truth, &ours, allowed, |_| true);
             if difference.largest > allowed || difference.differing > 0 {
                 println!("seed {seed}, {}, bound {}: {difference:?}", precision.name(), plan.bounds.total());
@@ -102,7 +106,7 @@ fn pictures_within_an_allowed_error_are_the_references_to_that_error() {
     }
     for (total, precision) in totals.into_iter().zip([Precision::F32, Precision::F64]) {
         println!("{SCENES} scenes, {}: {total:?}", precision.name());
-        let (_, share) = bars(precision);
+        let (_, share) = tolerances(precision);
         assert!(total.differing as f64 <= share * total.discontinuities as f64);
         assert!(total.smooth > 10_000 && total.discontinuities > 10_000);
     }

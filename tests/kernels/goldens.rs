@@ -10,7 +10,7 @@ use zerkalo::measure::Mask;
 use zerkalo::scene::Scene;
 use zerkalo::tracer::Settings;
 
-/// The bar of the port: 99.9 % of the stable pixels are this near, relative to values above 1 ...
+/// The tolerance of the port: 99.9 % of the stable pixels are this near, relative to values above 1 ...
 const NEAR: f32 = 1e-3;
 const NEAR_SHARE: f64 = 0.999;
 /// ... and none is farther than this.

@@ -6,8 +6,8 @@ use crate::tracers::Tracers;
 use glam::DVec3;
 use rayon::prelude::*;
 use zerkalo::frame::Frame;
-use zerkalo::reference::{BACKGROUND, LIGHT_BALL};
-use zerkalo::scene::{Camera, KernelFrame, Light, Material, Primitive, Scene, Solid, SolidKind, gallery};
+use zerkalo::reference::{BACKGROUND, LIGHT_SPHERE};
+use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, SceneSpace, Solid, SolidKind, gallery};
 use zerkalo::tracer::hierarchy::{Bounds, GROUP, level_count, levels, order};
 use zerkalo::tracer::{Kernel, Precision, Settings, WhittedRecords, bounds};
 
@@ -17,7 +17,7 @@ fn made(name: &str) -> Scene {
 
 /// World frame.
 fn bounds_of(scene: &Scene) -> Vec<Bounds> {
-    scene.primitives.iter().map(|primitive| bounds(&primitive.solid, KernelFrame::world(1e6))).collect()
+    scene.primitives.iter().map(|primitive| bounds(&primitive.solid, SceneSpace::world(1e6))).collect()
 }
 
 fn ordered(bounds: &[Bounds]) -> Vec<Bounds> {
@@ -70,7 +70,7 @@ fn boxes_hold_what_is_below_them_and_a_level_has_an_eighth_of_it() {
 #[test]
 fn rows_of_boxes_hold_those_below_them_by_four_place_errors() {
     let scene = made("cloud-sphere-5000");
-    let records = WhittedRecords::of(&scene, KernelFrame::of(&scene), Precision::F32, [1, 1]);
+    let records = WhittedRecords::of(&scene, SceneSpace::of(&scene), Precision::F32, [1, 1]);
     let solids = &records.solids;
     let faces = |rows: &[[f32; 4]]| {
         let [middle, half] = [rows[0], rows[1]].map(|[x, y, z, _]| DVec3::new(x.into(), y.into(), z.into()));
@@ -83,8 +83,8 @@ fn rows_of_boxes_hold_those_below_them_by_four_place_errors() {
     for _ in 1..solids.levels[0] {
         let above = first + 2 * count.next_multiple_of(8);
         for index in 0..count {
-            let (low, high) = faces(&solids.outlines[first + 2 * index..]);
-            let (outer_low, outer_high) = faces(&solids.outlines[above + 2 * (index / 8)..]);
+            let (low, high) = faces(&solids.proxies[first + 2 * index..]);
+            let (outer_low, outer_high) = faces(&solids.proxies[above + 2 * (index / 8)..]);
             let margin = (low - outer_low).min(outer_high - high).min_element();
             assert!(margin > 3.5 * place_error, "box {index}: {} place errors", margin / place_error);
         }
@@ -106,7 +106,7 @@ fn a_million_solids_are_drawn_whole() {
 fn bounds_hold_every_point_of_a_surface() {
     for kind in SolidKind::ALL {
         for primitive in made(&format!("cloud-{}-300", kind.name())).primitives {
-            let Bounds { low, high } = bounds(&primitive.solid, KernelFrame::world(1e6));
+            let Bounds { low, high } = bounds(&primitive.solid, SceneSpace::world(1e6));
             for point in surface_points(&primitive.solid) {
                 let outside = (low - point).max(point - high).max_element();
                 assert!(outside < 1e-12, "{:?}: {point} is {outside:e} outside", primitive.solid);
@@ -300,7 +300,7 @@ fn solids_seen_first_are_those_of_the_reference_ties_included() {
         let truth = picture(&scene, width, height);
         let pairs: Vec<_> = (frame.pixels().par_iter().map(|&pixel| index_of(pixel)))
             .zip(truth.pixels.par_iter().map(|pixel| match pixel.first_hit {
-                BACKGROUND | LIGHT_BALL => None,
+                BACKGROUND | LIGHT_SPHERE => None,
                 index => Some(index as usize),
             }))
             .collect();

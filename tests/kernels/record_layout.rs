@@ -10,7 +10,7 @@ use zerkalo::gpu::{
     StorageImage, Use, shaders,
 };
 use zerkalo::tracer::{
-    BINDINGS, BoxRecord, ConeRecord, CylinderRecord, FrameRecord, LightRecord, MAX_PRIMITIVES, MaterialRecord,
+    BINDINGS, BoxRecord, ConeRecord, CoursePushConstants, CylinderRecord, LightRecord, MAX_PRIMITIVES, MaterialRecord,
     PrimitiveRecords, SphereRecord, upload,
 };
 
@@ -67,8 +67,8 @@ impl Values {
         (0..MAX_PRIMITIVES).map(|_| record(self)).collect()
     }
 
-    fn frame(&mut self) -> FrameRecord {
-        FrameRecord {
+    fn frame(&mut self) -> CoursePushConstants {
+        CoursePushConstants {
             camera_position: self.three(),
             tile_origin: self.one() as u32,
             camera_s: self.three(),
@@ -110,7 +110,7 @@ fn every_field_comes_back_by_its_name() {
         &PipelineDescription {
             shader: &shaders::PROBE_LAYOUT,
             bindings: &bindings,
-            push_constant_bytes: size_of::<FrameRecord>() as u32,
+            push_constant_bytes: size_of::<CoursePushConstants>() as u32,
             constants: &[],
         },
     )

@@ -13,7 +13,7 @@ use zerkalo::gpu::{
 };
 use zerkalo::scene::{Light, Primitive, Scene, Solid, SolidKind, gallery};
 use zerkalo::tracer::{
-    BINDINGS, FrameRecord, MAX_PRIMITIVES, PrimitiveRecords, Settings, Tracer, TracerError, WORKGROUP, upload,
+    BINDINGS, CoursePushConstants, MAX_PRIMITIVES, PrimitiveRecords, Settings, Tracer, TracerError, WORKGROUP, upload,
 };
 
 /// Neither side is a multiple of a tile or a workgroup used here.
@@ -168,7 +168,7 @@ fn render_with_depths(device: &TestDevice, scene: &Scene, compiled: u32, pushed:
         &PipelineDescription {
             shader: &shaders::COURSE,
             bindings: &BINDINGS,
-            push_constant_bytes: size_of::<FrameRecord>() as u32,
+            push_constant_bytes: size_of::<CoursePushConstants>() as u32,
             constants: &[compiled, WORKGROUP[0], WORKGROUP[1]],
         },
     )
@@ -176,7 +176,7 @@ fn render_with_depths(device: &TestDevice, scene: &Scene, compiled: u32, pushed:
     let records = PrimitiveRecords::of(scene);
     let resources: Vec<_> = [picture.clone()].into_iter().chain(upload(device, &records).unwrap()).collect();
     let set = BindingSet::new(&pipeline, &resources).unwrap();
-    let record = FrameRecord::new(scene, &scene.lights[0], records.counts(), pushed, width, height);
+    let record = CoursePushConstants::new(scene, &scene.lights[0], records.counts(), pushed, width, height);
     Commands::new(device, "depths")
         .unwrap()
         .run(|recorder| {

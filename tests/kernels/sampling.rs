@@ -122,7 +122,7 @@ fn a_tracer_takes_up_other_samples_and_another_scale() {
     let others = [(4, 1.0), (2, 0.5), (2, 0.3), (1, 0.3), (1, 1.0)];
     for (samples, scale) in others {
         let settings = Settings { samples, scale, max_tile_side: 20, ..plain.clone() };
-        tracer.take_up(&mixed_scene(), &settings).unwrap();
+        tracer.set_scene(&mixed_scene(), &settings).unwrap();
         tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())).unwrap();
         assert!(frame == render(&device, &mixed_scene(), &settings), "{samples} samples at scale {scale}");
     }
@@ -137,8 +137,8 @@ fn neighbours(pixel: u32, size: u32, traced: u32) -> (usize, usize, f32) {
     (low as usize, (low + 1).min(last) as usize, (place - low * unit) as f32 / unit as f32)
 }
 
-/// `glsl/enlarge.comp` in the host's `f32`.
-fn enlarged(traced: &[Vec<[f32; 3]>], [width, height]: [u32; 2]) -> Vec<[f32; 3]> {
+/// `glsl/upscale.comp` in the host's `f32`.
+fn upscaled(traced: &[Vec<[f32; 3]>], [width, height]: [u32; 2]) -> Vec<[f32; 3]> {
     let between =
         |low: [f32; 3], high: [f32; 3], share: f32| std::array::from_fn(|i| low[i] + (high[i] - low[i]) * share);
     let mut pixels = Vec::new();
@@ -171,7 +171,7 @@ fn a_smaller_picture_is_brought_to_size_bilinearly() {
             let traced = tracers.draw(&scene, &Settings { samples, ..settings(F32, traced_size) });
             let traced: Vec<_> = traced.rows().map(<[_]>::to_vec).collect();
             let frame = tracers.draw(&scene, &Settings { samples, scale, ..settings(F32, size) });
-            for (i, (ours, expected)) in frame.pixels().iter().zip(enlarged(&traced, size)).enumerate() {
+            for (i, (ours, expected)) in frame.pixels().iter().zip(upscaled(&traced, size)).enumerate() {
                 for (ours, expected) in ours.iter().zip(expected) {
                     assert!((ours - expected).abs() <= tolerance(1.0), "scale {scale}, pixel {i}: {ours} {expected}");
                 }
@@ -230,13 +230,13 @@ fn a_ramp_goes_on_as_a_ramp() {
             rows.flatten().collect::<Vec<_>>()
         };
         let traced: Vec<_> = ramp(traced_size).iter().map(|&[r, g, b]| [r as f32, g as f32, b as f32, 1.0]).collect();
-        let enlarged = enlarge(&device, &traced, traced_size, size);
+        let upscaled = upscale(&device, &traced, traced_size, size);
         // Within the outermost centres of the smaller picture.
         let is_within = |pixel: u32, axis: usize| {
             let edge = center(0, traced_size[axis]);
             (edge..=1.0 - edge).contains(&center(pixel, size[axis]))
         };
-        for (i, (ours, expected)) in (0..).zip(enlarged.iter().zip(ramp(size))) {
+        for (i, (ours, expected)) in (0..).zip(upscaled.iter().zip(ramp(size))) {
             let [x, y] = [i % size[0], i / size[0]];
             assert_eq!(ours[3], 1.0);
             if is_within(x, 0) && is_within(y, 1) {
@@ -251,9 +251,9 @@ fn a_ramp_goes_on_as_a_ramp() {
 }
 
 /// By the pass itself, of a picture that no scene gives.
-fn enlarge(device: &TestDevice, traced: &[[f32; 4]], traced_size: [u32; 2], size: [u32; 2]) -> Vec<[f32; 4]> {
+fn upscale(device: &TestDevice, traced: &[[f32; 4]], traced_size: [u32; 2], size: [u32; 2]) -> Vec<[f32; 4]> {
     let description = PipelineDescription {
-        shader: &shaders::ENLARGE,
+        shader: &shaders::UPSCALE,
         bindings: &[BindingKind::Picture, BindingKind::PictureRead],
         push_constant_bytes: 32,
         constants: &[8, 8],
@@ -270,7 +270,7 @@ fn enlarge(device: &TestDevice, traced: &[[f32; 4]], traced_size: [u32; 2], size
     let bytes = u64::from(size[0] * size[1]) * PIXEL_BYTES;
     let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, bytes).unwrap());
     let read_back = Resource::from(&pixels);
-    Commands::new(device, "enlarge")
+    Commands::new(device, "upscale")
         .unwrap()
         .run(|recorder| {
             recorder.make_ready(&small, Use::CopyTarget);

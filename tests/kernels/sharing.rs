@@ -56,7 +56,7 @@ impl Easel {
     }
 
     fn fresh(&mut self, scene: &Scene) -> Frame {
-        self.tracer.take_up(scene, &self.settings).unwrap();
+        self.tracer.set_scene(scene, &self.settings).unwrap();
         let mut frame = self.tracer.frame().unwrap();
         self.tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())).unwrap();
         frame
@@ -90,7 +90,7 @@ fn row_bytes(precision: Precision) -> u64 {
 const PRECISIONS: [Precision; 2] = [Precision::F32, Precision::F64];
 
 /// Of the search, which is in `f32` whatever the kernel's precision.
-const OUTLINE_BYTES: u64 = 16;
+const PROXY_BYTES: u64 = 16;
 const BOX_BYTES: u64 = 32;
 
 #[test]
@@ -149,7 +149,7 @@ fn an_edited_primitive_uploads_its_rows_and_the_boxes_over_it() {
         scene.primitives[345].material = material(0.3, 0.4, 0.2);
         assert_eq!(easel.draw(&scene), 2 * row);
 
-        let own = row + OUTLINE_BYTES;
+        let own = row + PROXY_BYTES;
         for index in [345, 0, 999, 500] {
             let Solid::Sphere { center, radius } = &mut scene.primitives[index].solid else { unreachable!() };
             *center += DVec3::new(0.04, -0.03, 0.05);
@@ -178,7 +178,7 @@ fn solids_that_wander_off_are_put_in_another_order_in_the_end() {
         *center = target;
         let uploaded = easel.draw(&scene);
         // Of each level one box, and where its group's axis is another, that of all eight.
-        let most = 16 + OUTLINE_BYTES + 2 * (BOX_BYTES + 7 * 16);
+        let most = 16 + PROXY_BYTES + 2 * (BOX_BYTES + 7 * 16);
         assert!(uploaded <= most || uploaded > 10 * most, "{uploaded} B");
         orders += u32::from(uploaded > most);
     }

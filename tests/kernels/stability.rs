@@ -1,4 +1,4 @@
-//! Every id of the catalogue of extremes (NUMERICS.md) is tried, and the accurate kernels pass it.
+//! Every id of the catalogue of extremes (docs/numerics.md) is tried, and the accurate kernels pass it.
 
 use std::collections::HashSet;
 use std::ops::ControlFlow;
@@ -7,7 +7,7 @@ use crate::common::TestDevice;
 use zerkalo::measure::stability::{Subject, Verdict, catalogue, error_sheet};
 use zerkalo::tracer::{Kernel, Precision};
 
-/// The ids of NUMERICS.md, and SC and TR once more as pictures.
+/// The ids of docs/numerics.md, and SC and TR once more as pictures.
 fn wanted() -> Vec<String> {
     let numbered = [
         ("SC", 13),

@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use zerkalo::frame::Frame;
-use zerkalo::plan::{Crowd, MOST_PIXELS};
+use zerkalo::plan::{MOST_PIXELS, TraversalCost};
 use zerkalo::scene::Scene;
-use zerkalo::tracer::{Kernel, Requirements, Settings, Tracer, WhittedRecords, kernel_frame};
+use zerkalo::tracer::{Kernel, Requirements, Settings, Tracer, WhittedRecords, scene_space};
 
 use crate::common::TestDevice;
 
@@ -31,12 +31,13 @@ impl Made {
     fn of(scene: &Scene, settings: &Settings) -> Self {
         let &Settings { kernel, width, height, workgroup, without_boxes, samples, pixels, .. } = settings;
         let depth = settings.max_depth.unwrap_or(scene.max_depth);
-        let records = WhittedRecords::of(scene, kernel_frame(scene, kernel), kernel.precision(), [width, height]);
+        let records = WhittedRecords::of(scene, scene_space(scene, kernel), kernel.precision(), [width, height]);
         let unknown = if without_boxes { 1 } else { MOST_PIXELS };
-        let in_turn = || Crowd::of(&scene.primitives).pixels_in_turn(scene.lights.len(), depth, unknown);
+        let with_pixels_per_invocation =
+            || TraversalCost::of(&scene.primitives).pixels_per_invocation(scene.lights.len(), depth, unknown);
         let requirements = Requirements {
-            pixels: pixels.unwrap_or_else(in_turn),
-            ..Requirements::of(&records, &settings.cuts, depth)
+            pixels: pixels.unwrap_or_else(with_pixels_per_invocation),
+            ..Requirements::of(&records, &settings.approximations, depth)
         };
         Self { kernel, requirements, size: [width, height], workgroup, without_boxes, has_samples: samples > 1 }
     }
@@ -52,7 +53,7 @@ impl<'a> Tracers<'a> {
         let made = Made::of(scene, settings);
         if let Some(place) = self.kept.iter().position(|(other, _)| *other == made) {
             let tracer = &mut self.kept[place].1;
-            tracer.take_up(scene, settings).unwrap();
+            tracer.set_scene(scene, settings).unwrap();
             return tracer;
         }
         let tracer = Tracer::new(self.device, scene, settings).unwrap();

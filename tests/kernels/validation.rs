@@ -25,13 +25,13 @@ fn every_gallery_scene_is_drawn_without_a_message() {
     scenes.sort_by_key(|(_, scene)| scene.max_depth);
     let mut tracer = Tracer::new(&device, &scenes[0].1, &settings).unwrap();
     for (name, scene) in scenes {
-        tracer.take_up(&scene, &settings).unwrap();
+        tracer.set_scene(&scene, &settings).unwrap();
         tracer.render(&mut tracer.frame().unwrap(), &mut |_| ControlFlow::Continue(())).unwrap();
         assert_eq!(device.take_messages(), [], "{name}");
     }
 }
 
-/// Samples read the picture that the ones before them wrote, and enlarging reads what all of them did.
+/// Samples read the picture that the ones before them wrote, and upscaling reads what all of them did.
 #[test]
 fn samples_and_a_smaller_picture_are_drawn_without_a_message() {
     let device = TestDevice::open();

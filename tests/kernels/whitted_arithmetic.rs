@@ -216,7 +216,7 @@ fn every_exact_product_in_the_probes_has_no_contraction() {
 fn every_function_of_the_kernels_that_makes_sums_and_products_exact_has_no_contraction() {
     let exact = ["two_sum(", "renormalized(", "upper_half(", "two_product(", "add_scaled(", "exact_sum("];
     for shader in
-        [&shaders::WHITTED_F32, &shaders::WHITTED_F64, &shaders::WHITTED_F32_OCTETS, &shaders::WHITTED_F64_OCTETS]
+        [&shaders::WHITTED_F32, &shaders::WHITTED_F64, &shaders::WHITTED_F32_PACKETS, &shaders::WHITTED_F64_PACKETS]
     {
         let code = instructions(shader);
         let protected = without_contraction(&code);

@@ -7,8 +7,8 @@ use crate::scenes::{light, material, mirror, mixed_scene, picture, primitive, sc
 use crate::tracers::Tracers;
 use glam::DVec3;
 use zerkalo::frame::Frame;
-use zerkalo::plan::{Crowd, Cuts};
-use zerkalo::reference::LIGHT_BALL;
+use zerkalo::plan::{Approximations, TraversalCost};
+use zerkalo::reference::LIGHT_SPHERE;
 use zerkalo::scene::{Camera, LIGHT_LIMIT, Light, Scene, Solid, gallery};
 use zerkalo::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
 
@@ -34,12 +34,12 @@ fn tiles_workgroups_and_pixels_in_turn_change_no_bit() {
         }
         for pixels in [1, 2, 4, 8] {
             let other = render(&device, &mixed_scene(), &Settings { pixels: Some(pixels), ..usual.clone() });
-            assert!(other == whole, "{pixels} pixels in turn");
+            assert!(other == whole, "{pixels} pixels per invocation");
         }
     }
 }
 
-/// Balls are looked for in a part of the picture only: in all that shows them.
+/// Light spheres are looked for in a part of the picture only: in all that shows them.
 #[test]
 fn the_balls_of_lights_are_drawn_wherever_they_are_seen() {
     let device = TestDevice::open();
@@ -54,13 +54,13 @@ fn the_balls_of_lights_are_drawn_wherever_they_are_seen() {
             scene.lights.extend(are_two.then(|| Light { position: in_sight, ..Light::default() }));
             let max_tile_side = [33, 1024][index as usize / 2 % 2];
             let settings = Settings { max_tile_side, pixels: Some(pixels), ..usual.clone() };
-            tracer.take_up(&scene, &settings).unwrap();
+            tracer.set_scene(&scene, &settings).unwrap();
             tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())).unwrap();
             let truth = picture(&scene, 130, 150);
             for (pixel, truth) in frame.pixels().iter().zip(&truth.pixels) {
                 assert_eq!(*pixel, truth.color.as_vec3().to_array(), "{settings:?}: {scene:?}");
             }
-            shown += usize::from(truth.pixels.iter().any(|pixel| pixel.first_hit == LIGHT_BALL));
+            shown += usize::from(truth.pixels.iter().any(|pixel| pixel.first_hit == LIGHT_SPHERE));
         }
     }
     assert!((40..140).contains(&shown), "{shown} of 150 are a poor choice");
@@ -78,10 +78,10 @@ fn pixels_that_took_too_long_in_company_are_traced_alone() {
     let in_company = Settings { pixels: Some(8), ..alone.clone() };
     assert!(render(&device, &on_one_place, &in_company) == render(&device, &on_one_place, &alone));
     let Scene { primitives, lights, max_depth, .. } = &on_one_place;
-    assert_eq!(Crowd::of(primitives).pixels_in_turn(lights.len(), *max_depth, 8), 1, "and is not tried");
+    assert_eq!(TraversalCost::of(primitives).pixels_per_invocation(lights.len(), *max_depth, 8), 1, "and is not tried");
 }
 
-/// Only primary rays look for the balls of lights, or each ray's turns would grow by the lights' number.
+/// Only primary rays look for the light spheres, or each ray's iterations would grow by the lights' number.
 #[test]
 fn a_room_of_mirrors_with_the_most_lights_ends() {
     let device = TestDevice::open();
@@ -101,18 +101,19 @@ fn a_tracer_that_takes_up_another_scene_draws_what_a_new_one_does() {
     let first = settings(Precision::F32, 48, 32);
     let mut tracer = Tracer::new(&device, &Scene::default(), &first).unwrap();
     let showcase = gallery::scene("showcase").unwrap();
-    let cuts = Cuts { least_weight: 0.1, least_shadowed: 0.1, highlights: false, ..Cuts::NONE };
+    let approximations =
+        Approximations { min_throughput: 0.1, min_shadowed: 0.1, highlights: false, ..Approximations::NONE };
     let course = Settings { kernel: Kernel::Course, ..first.clone() };
     let of_scenes = [
         (mixed_scene(), first.clone()),
-        (mixed_scene(), Settings { cuts, ..first.clone() }),
+        (mixed_scene(), Settings { approximations, ..first.clone() }),
         (showcase, Settings { kernel: Kernel::Whitted(Precision::F64), ..first.clone() }),
         (gallery::scene("four").unwrap(), course),
         (mixed_scene(), Settings { max_depth: Some(1), max_tile_side: 9, workgroup: [3, 5], ..first.clone() }),
     ];
     let mut frame = tracer.frame().unwrap();
     for (scene, settings) in of_scenes {
-        tracer.take_up(&scene, &settings).unwrap();
+        tracer.set_scene(&scene, &settings).unwrap();
         tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())).unwrap();
         assert!(frame == render(&device, &scene, &settings), "{settings:?}");
     }
@@ -239,11 +240,14 @@ fn a_picture_that_the_device_gives_up_on_is_an_error() {
     let mut tracer = Tracer::new(&device, &scene, &plain).unwrap();
     let mut frame = tracer.frame().unwrap();
     for (samples, scale) in [(1, 1.0), (2, 0.5)] {
-        tracer.take_up(&scene, &Settings { samples, scale, ..plain.clone() }).unwrap();
+        tracer.set_scene(&scene, &Settings { samples, scale, ..plain.clone() }).unwrap();
         match tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())) {
             Ok(_) => assert!(frame.pixels().iter().all(|&pixel| pixel == [1.0; 3]), "drawn, but not what is there"),
             Err(error) => {
-                assert!(matches!(error, TracerError::GaveUp { pixels: 64, .. }) && !error.is_input_error(), "{error}");
+                assert!(
+                    matches!(error, TracerError::LoopLimitReached { pixels: 64, .. }) && !error.is_input_error(),
+                    "{error}"
+                );
                 assert!(!error.to_string().contains('\n'));
             }
         }

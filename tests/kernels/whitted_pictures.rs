@@ -1,4 +1,4 @@
-//! The accurate kernel's pictures against the reference's, by the bars of NUMERICS.md.
+//! The accurate kernel's pictures against the reference's, by the tolerances of docs/numerics.md.
 
 use std::fs;
 use std::path::Path;
@@ -8,9 +8,9 @@ use crate::common::TestDevice;
 use crate::scenes::{mixed_scene, moved_and_scaled, picture};
 use crate::tracers::Tracers;
 use glam::DVec3;
-use zerkalo::measure::{Difference, bars};
+use zerkalo::measure::{Difference, tolerances};
 use zerkalo::plan::{Limits, Plan, Wishes};
-use zerkalo::reference::LIGHT_BALL;
+use zerkalo::reference::LIGHT_SPHERE;
 use zerkalo::scene::{Light, Projection, Scene, gallery};
 use zerkalo::tracer::{Kernel, Precision, Settings};
 
@@ -44,10 +44,10 @@ fn every_picture_is_the_references(scenes: Vec<(String, Scene)>) {
             scene.camera.projection = projection;
             let truth = picture(&scene, SIZE[0], SIZE[1]);
             for (total, precision) in totals.iter_mut().zip([Precision::F32, Precision::F64]) {
-                let (bar, _) = bars(precision);
+                let (tolerance, _) = tolerances(precision);
                 let ours = kernel_picture(&mut tracers, &scene, precision, SIZE);
-                let difference = Difference::between(&truth, &ours, bar, |_| true);
-                if difference.largest > bar || difference.differing > 0 {
+                let difference = Difference::between(&truth, &ours, tolerance, |_| true);
+                if difference.largest > tolerance || difference.differing > 0 {
                     println!("{name}, {}, {}: {difference:?}", projection.name(), precision.name());
                 }
                 *total = total.plus(difference);
@@ -55,7 +55,7 @@ fn every_picture_is_the_references(scenes: Vec<(String, Scene)>) {
         }
         for (total, precision) in totals.into_iter().zip([Precision::F32, Precision::F64]) {
             println!("{} scenes, {}, {}: {total:?}", scenes.len(), projection.name(), precision.name());
-            let (largest, share) = bars(precision);
+            let (largest, share) = tolerances(precision);
             assert_eq!(total.not_finite, 0);
             assert!(total.largest <= largest);
             assert!(total.differing as f64 <= share * total.discontinuities as f64);
@@ -96,13 +96,13 @@ fn pictures_lit_by_several_lights_are_the_references() {
         let plan = Plan::for_scene(&scene, &wishes, &Limits::PROMISED).unwrap();
         // Places are off by 32u of the scene's 10; two mirrors, round ones, multiply that by ten each, and a highlight's
         // slope by five. The third of a light that a picture must not be off by is thirty times that.
-        let bar = 32.0 * 6e-8 * 10.0 * 100.0 * 5.0;
+        let tolerance = 32.0 * 6e-8 * 10.0 * 100.0 * 5.0;
         for workgroup in [[8, 8], [4, 16]] {
             let settings = Settings { workgroup, ..Settings::planned(&plan, width, height) };
             let ours = tracers.draw_f64(&scene, &settings);
-            let difference = Difference::between(&truth, &ours, bar, |_| true);
+            let difference = Difference::between(&truth, &ours, tolerance, |_| true);
             let Difference { largest, not_finite, .. } = difference;
-            assert!(largest <= bar && not_finite == 0, "scene {number}, {workgroup:?}: {difference:?}");
+            assert!(largest <= tolerance && not_finite == 0, "scene {number}, {workgroup:?}: {difference:?}");
             smooth += difference.smooth;
             lit += difference.solid;
         }
@@ -127,10 +127,10 @@ fn a_scene_scaled_by_a_million_or_moved_by_1e5_of_its_size_looks_the_same() {
     for (name, moved) in &moves {
         let truth = picture(moved, width, height);
         for precision in [Precision::F32, Precision::F64] {
-            let (largest, share) = bars(precision);
+            let (largest, share) = tolerances(precision);
             let ours = kernel_picture(&mut tracers, moved, precision, [width, height]);
             let shows_solid = |index: usize| {
-                truth.pixels[index].first_hit < LIGHT_BALL && original.pixels[index].first_hit < LIGHT_BALL
+                truth.pixels[index].first_hit < LIGHT_SPHERE && original.pixels[index].first_hit < LIGHT_SPHERE
             };
             for (image, of) in [(&truth, "the same scene's reference"), (&original, "the original's")] {
                 let difference = Difference::between(image, &ours, largest, shows_solid);

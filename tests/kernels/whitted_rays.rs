@@ -1,4 +1,4 @@
-//! The accurate kernel's hits against the reference's, ray by ray, by the bars of NUMERICS.md.
+//! The accurate kernel's hits against the reference's, ray by ray, by the tolerances of docs/numerics.md.
 //!
 //! `ZERKALO_RAYS=10000000 cargo test --release --test whitted_rays` is the release check: so many rays a solid.
 
@@ -9,7 +9,7 @@ use crate::probe::{From, Probe, ProbeHit, ProbeRay, stored_vector, surface};
 use crate::random::Random;
 use glam::DVec3;
 use rayon::prelude::*;
-use zerkalo::reference::{Departure, Face, Hit, Side};
+use zerkalo::reference::{Face, Hit, OriginSurface, Side};
 use zerkalo::scene::{Solid, SolidKind};
 use zerkalo::tracer::{Kernel, Precision};
 
@@ -24,7 +24,7 @@ fn batches() -> u64 {
     rays.div_ceil(RAYS_A_SOLID * SOLIDS_A_BATCH) as u64
 }
 
-/// What was found. Errors are in units of their bars.
+/// What was found. Errors are in units of their tolerances.
 #[derive(Debug, Default, Clone)]
 struct Tally {
     rays: u64,
@@ -65,7 +65,7 @@ impl Tally {
 
     fn judge(&mut self, case: &Case, precision: Precision, ray: &ProbeRay, hit: Option<ProbeHit>) {
         let u = precision.unit_roundoff();
-        let truth = case.cast(ray, Departure::Free);
+        let truth = case.cast(ray, OriginSurface::Free);
         self.rays += 1;
         self.hits += u64::from(hit.is_some());
         let (hit, truth) = match (hit, truth) {
@@ -109,7 +109,7 @@ impl Tally {
             Precision::F64 => truth.normal.dot(hit.point - truth.point).abs(),
         };
         if surface(hit) != (truth.face, truth.side) {
-            // At an edge both faces are right, to the bar of t.
+            // At an edge both faces are right, to the tolerance of t.
             if (hit.t - truth.t).abs() > 2.0 * t_bar / cosine.max(1e-300) && t_error > t_bar {
                 self.wrong_face += 1;
                 self.remember(format!("{hit:?} instead of {truth:?}: {ray:?} at {:?}", case.solid));
@@ -123,7 +123,7 @@ impl Tally {
         let reach = hit.t / radius_at(&case.solid, truth.point);
         let beyond = if reach > FARTHEST { u * u * reach } else { 0.0 };
         // A round side that the ray leaves by less than that has a clearance r·cos²θ/2 below H's band of 8u·r, where not
-        // even hit or miss is certain, and the bar is no smaller than cosθ itself.
+        // even hit or miss is certain, and the tolerance is no smaller than cosθ itself.
         let is_decided = truth.face != Face::Curved || cosine >= (16.0 * u).sqrt();
         let normal_error = if is_decided { (hit.normal - truth.normal).length() * cosine } else { 0.0 };
         let normal_share = normal_error / (8.0 * u + beyond);
@@ -247,7 +247,7 @@ fn f64_solids_break_no_bar() {
 fn the_search_s_outlines_lose_no_hit() {
     for precision in [Precision::F32, Precision::F64] {
         for kind in SolidKind::ALL {
-            let tally = tally(kind, precision, Case::in_kernel_frame);
+            let tally = tally(kind, precision, Case::in_scene_space);
             assert_eq!((tally.wrong_outside_band, tally.not_finite), (0, 0), "{tally:#?}");
             assert!(tally.hits * 10 > tally.rays * 3, "only {} hits of {} rays", tally.hits, tally.rays);
         }
@@ -318,8 +318,8 @@ fn no_surface_is_met_again_nor_lost(kind: SolidKind, precision: Precision) {
                 _ => 1.0,
             };
             let size = cases[ray.solid].size;
-            let bar = 8.0 * precision.unit_roundoff() * (exit.point.abs().max_element() + size) / rim_sine;
-            if precision == Precision::F32 && cases[ray.solid].distance(exit.point, DVec3::ZERO) > bar {
+            let tolerance = 8.0 * precision.unit_roundoff() * (exit.point.abs().max_element() + size) / rim_sine;
+            if precision == Precision::F32 && cases[ray.solid].distance(exit.point, DVec3::ZERO) > tolerance {
                 off_surface += 1;
                 first_bad.get_or_insert(format!("{exit:?} is off {:?}: {ray:?}", solids[ray.solid]));
             }

@@ -1,4 +1,4 @@
-//! An arbitrary-precision judge of single rays, and the bars of NUMERICS.md.
+//! An arbitrary-precision judge of single rays, and the tolerances of docs/numerics.md.
 
 pub mod rays;
 mod real;
@@ -7,7 +7,7 @@ mod solid;
 use std::fmt;
 
 use glam::DVec3;
-use zerkalo::reference::{Departure, Hit, Ray, Side, Solids};
+use zerkalo::reference::{Hit, OriginSurface, Ray, Side, Solids};
 use zerkalo::scene::{Material, Primitive, Solid};
 
 use real::{Vector, real, to_f64};
@@ -50,7 +50,7 @@ impl Subject {
 
     /// A free ray by the reference.
     pub fn cast(&self, ray: &Ray) -> Option<Hit> {
-        self.reference.nearest(ray, Departure::Free)
+        self.reference.nearest(ray, OriginSurface::Free)
     }
 
     /// Distance of a point from the surface.
@@ -106,7 +106,7 @@ pub fn anchor(solid: &Solid) -> DVec3 {
     }
 }
 
-/// What was found over many rays. Errors are in units of their bars: above 1 is a violation.
+/// What was found over many rays. Errors are in units of their tolerances: above 1 is a violation.
 #[derive(Debug, Default)]
 pub struct Report {
     pub rays: u32,

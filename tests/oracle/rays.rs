@@ -1,4 +1,4 @@
-//! Solids and rays over all the scales the bars are set for.
+//! Solids and rays over all the scales the tolerances are set for.
 
 use glam::DVec3;
 use zerkalo::reference::Ray;

@@ -28,8 +28,8 @@ fn the_right_button_turns_the_view_by_the_course_s_milliradian_a_pixel() {
     // −x is on the right of a camera that looks along +z.
     let (yaw, pitch) = (0.1_f64, -0.05_f64);
     let turned = DVec3::new(-yaw.sin() * pitch.cos(), pitch.sin(), yaw.cos() * pitch.cos());
-    let is_turned = |now: &crate::driver::Observation| now.direction().abs_diff_eq(turned, 1e-9);
-    window.wait_until("right turns right and down looks down", is_turned);
+    let is_rotated = |now: &crate::driver::Observation| now.direction().abs_diff_eq(turned, 1e-9);
+    window.wait_until("right turns right and down looks down", is_rotated);
     window.drag(RIGHT, middle, [-100.0, -50.0]);
     window.wait_until("and back", |now| now.direction().abs_diff_eq(DVec3::Z, 1e-9));
     window.drag(LEFT, middle, [100.0, 50.0]);

@@ -73,7 +73,7 @@ fn course_3_5_1_primitives_look_like_their_definitions() {
         defined.into_iter().for_each(|index| of_each[index] += 1);
     }
     assert!(of_each.iter().all(|&count| count > 100), "all four are to be seen: {of_each:?}");
-    // Outlines: a step of 0.02 misses what a ray grazes, which is less than that of a solid's width of 2.
+    // Proxies: a step of 0.02 misses what a ray grazes, which is less than that of a solid's width of 2.
     assert!(wrong * 200 < looked_at, "{wrong} of {looked_at} pixels are not as defined");
     window.close();
 }

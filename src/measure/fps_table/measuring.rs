@@ -11,7 +11,7 @@ use crate::tracer::{Settings, TracerError};
 /// Where the frames of a table are drawn.
 pub trait Stage {
     /// From now on this scene is drawn, as the plan has it.
-    fn take_up(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError>;
+    fn set_scene(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError>;
 
     /// A frame by one of the plan's kernels. `keep_going` can stop the work.
     fn draw(
@@ -34,7 +34,7 @@ impl OffScreen {
 }
 
 impl Stage for OffScreen {
-    fn take_up(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError> {
+    fn set_scene(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError> {
         let tracer = |&kernel: &Kernel| {
             let settings = Settings {
                 kernel: kernel.in_tracer(),
@@ -87,7 +87,7 @@ pub fn measure(
     let name = format!("grid-{}-{count}", kind.name());
     let scene = gallery::scene(&name)
         .ok_or_else(|| TracerError::Refused(format!("the gallery has no scene '{name}' to measure")))?;
-    stage.take_up(&scene, plan)?;
+    stage.set_scene(&scene, plan)?;
     let mut runs: Vec<Run> = plan.kernels.iter().map(|&kernel| Run::new(kernel)).collect();
     for run in &runs {
         stage.draw(run.kernel, keep_going)?;

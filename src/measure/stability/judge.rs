@@ -1,9 +1,9 @@
-//! Hits against the reference's, by the bars of NUMERICS.md: T, P, N and H, each in units of its bar.
+//! Hits against the reference's, by the tolerances of docs/numerics.md: T, P, N and H, each in units of its tolerance.
 
 use glam::DVec3;
 
 use super::Measured;
-use crate::reference::{Departure, Hit, Ray, Solids};
+use crate::reference::{Hit, OriginSurface, Ray, Solids};
 use crate::scene::{Primitive, Solid, world_from_box};
 use crate::tracer::probe::{ProbeHit, ProbeRay};
 use crate::tracer::{Kernel, Precision};
@@ -54,12 +54,12 @@ impl Judge {
     }
 
     pub fn true_hit(&self, ray: &ProbeRay) -> Option<Hit> {
-        self.truth.nearest(&Ray { origin: ray.origin, direction: ray.direction }, Departure::Free)
+        self.truth.nearest(&Ray { origin: ray.origin, direction: ray.direction }, OriginSurface::Free)
     }
 
     fn is_within_band(&self, ray: &ProbeRay) -> bool {
         let ray = Ray { origin: ray.origin, direction: ray.direction };
-        let is_hit = |solids: &Solids| solids.nearest(&ray, Departure::Free).is_some();
+        let is_hit = |solids: &Solids| solids.nearest(&ray, OriginSurface::Free).is_some();
         is_hit(&self.grown) != self.shrunk.as_ref().is_some_and(is_hit)
     }
 
@@ -91,7 +91,7 @@ impl Judge {
         };
         tally.t = tally.t.max(t_error / t_bar);
         if hit.surface.is_some_and(|surface| surface != (truth.face, truth.side)) {
-            // At an edge both faces are right, to the bar of t.
+            // At an edge both faces are right, to the tolerance of t.
             let is_at_edge = (hit.t - truth.t).abs() <= 2.0 * t_bar / cosine.max(f64::MIN_POSITIVE) || t_error <= t_bar;
             tally.wrong_surface += usize::from(!is_at_edge);
             return;

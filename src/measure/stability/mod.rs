@@ -1,4 +1,4 @@
-//! The catalogue of extremes (NUMERICS.md): what each kernel makes of every case, in units that a bar is stated in.
+//! The catalogue of extremes (docs/numerics.md): what each kernel makes of every case, in units that a tolerance is stated in.
 
 mod judge;
 mod loading;

@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::scenes::{balls_in_contact, cloud, facing_mirrors, lit_cube, mixed, moved_and_scaled, rooms, sharing_cubes};
 use super::{Case, Measured, Subject};
 use crate::frame::Frame;
-use crate::measure::{Difference, bars};
-use crate::reference::{self, Image64, LIGHT_BALL, RenderError};
+use crate::measure::{Difference, tolerances};
+use crate::reference::{self, Image64, LIGHT_SPHERE, RenderError};
 use crate::scene::{Scene, gallery};
 use crate::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
 
@@ -64,7 +64,7 @@ pub(super) fn truth(scene: &Scene, [width, height]: [u32; 2]) -> Result<Image64,
 }
 
 fn measured(difference: &Difference, precision: Precision, least_solid: usize) -> Vec<Measured> {
-    let (largest, share) = bars(precision);
+    let (largest, share) = tolerances(precision);
     vec![
         Measured { what: "largest difference off discontinuities", measured: difference.largest, bound: largest },
         Measured {
@@ -88,7 +88,7 @@ fn compared(
         return Ok(Vec::new());
     };
     let precision = subject.kernel.precision();
-    let difference = Difference::between(&truth(scene, size)?, &ours, bars(precision).0, |_| true);
+    let difference = Difference::between(&truth(scene, size)?, &ours, tolerances(precision).0, |_| true);
     Ok(measured(&difference, precision, least_solid))
 }
 
@@ -118,12 +118,13 @@ fn moved(subject: &Subject, moves: &[(f64, DVec3)]) -> Result<Vec<Measured>, Tra
             .pixels
             .iter()
             .zip(&original.pixels)
-            .map(|(moved, original)| moved.first_hit < LIGHT_BALL && original.first_hit < LIGHT_BALL)
+            .map(|(moved, original)| moved.first_hit < LIGHT_SPHERE && original.first_hit < LIGHT_SPHERE)
             .collect();
         for (pixel, own) in moved_truth.pixels.iter_mut().zip(own.iter().flatten()) {
             pixel.color = *own;
         }
-        total = total.plus(Difference::between(&moved_truth, &ours, bars(precision).0, |index| shows_solid[index]));
+        total =
+            total.plus(Difference::between(&moved_truth, &ours, tolerances(precision).0, |index| shows_solid[index]));
     }
     Ok(measured(&total, precision, (size[0] * size[1] / 20) as usize))
 }
@@ -142,8 +143,8 @@ fn closed_rooms(subject: &Subject) -> Result<Vec<Measured>, TracerError> {
     Ok(vec![Measured::none_of("rays that escape from a closed room", escaped)])
 }
 
-/// Spheres that mirror each other multiply an angular error by about 5 a bounce (NUMERICS.md): a hit's of 8u is still
-/// below the bar after 5 bounces in `f32`, 8u·5⁵ = 1.5e-3, and after 8 in `f64`. Deeper, it must stay finite and within
+/// Spheres that mirror each other multiply an angular error by about 5 a bounce (docs/numerics.md): a hit's of 8u is still
+/// below the tolerance after 5 bounces in `f32`, 8u·5⁵ = 1.5e-3, and after 8 in `f64`. Deeper, it must stay finite and within
 /// what shines.
 fn facing(subject: &Subject) -> Result<Vec<Measured>, TracerError> {
     let judged_depth = match subject.kernel.precision() {

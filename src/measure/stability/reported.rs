@@ -50,7 +50,7 @@ fn right_or_told(id: &str, scene: impl Fn() -> Scene + 'static) -> Case {
         let plan = plan.map_err(|error| TracerError::Refused(error.to_string()))?;
         let is_told = plan.with_f32_tried(&scene, &wishes).warning().is_some();
         let Some(ours) = picture(subject, &scene, [width, height])? else { return Ok(Vec::new()) };
-        let tolerance = Precision::F32.rounding_bar();
+        let tolerance = Precision::F32.rounding_tolerance();
         let is_wrong = |ours: &DVec3, right: DVec3| !(*ours - right).abs().cmple(DVec3::splat(tolerance)).all();
         let right = truth(&scene, [width, height])?.pixels;
         let wrong = ours.iter().zip(right).filter(|(ours, right)| is_wrong(ours, right.color)).count();

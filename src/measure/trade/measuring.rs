@@ -9,7 +9,7 @@ use glam::DVec3;
 use super::{Conditions, LeftOut, PictureError, Planned, Point, SceneTrade, Sweep, Truth, contenders};
 use crate::frame::Frame;
 use crate::gpu::Device;
-use crate::measure::{Budget, Clock, Difference, ErrorDomain, FrameTime, TimedTracer, bars, image_error};
+use crate::measure::{Budget, Clock, Difference, ErrorDomain, FrameTime, TimedTracer, image_error, tolerances};
 use crate::plan::Precision;
 use crate::scene::Scene;
 use crate::tracer::TracerError;
@@ -134,7 +134,7 @@ impl<'a> Bench<'a> {
             Err(TracerError::Stopped) if is_out_of_patience => {
                 return left_out(format!("one frame takes longer than {} s", patience.as_secs_f64()));
             }
-            Err(error @ TracerError::GaveUp { .. }) => return left_out(error.to_string()),
+            Err(error @ TracerError::LoopLimitReached { .. }) => return left_out(error.to_string()),
             first => first?,
         };
         let error = self.error_of(&tracer.frame);
@@ -205,8 +205,8 @@ impl<'a> Bench<'a> {
         // invariant: the truth and the frame are of one size, and no mask is empty.
         let of_image = image_error(truth, frame, ErrorDomain::Linear, None).expect("pictures of one size");
         let colors: Vec<DVec3> = frame.pixels().iter().map(|pixel| DVec3::from_array(pixel.map(f64::from))).collect();
-        let (bar, _) = bars(Precision::F32);
-        let difference = Difference::between(image, &colors, bar, |_| true);
+        let (tolerance, _) = tolerances(Precision::F32);
+        let difference = Difference::between(image, &colors, tolerance, |_| true);
         PictureError {
             image: of_image,
             max_abs_off_discontinuities: Some(difference.largest).filter(|largest| largest.is_finite()),

@@ -4,7 +4,7 @@
 
 use glam::{DVec3, Vec3};
 
-/// Kernel frame.
+/// Scene space.
 #[derive(Debug, Clone, Copy)]
 pub struct Ray {
     /// Of the camera good to 48 bits, else a point of `f32`.

@@ -18,7 +18,7 @@ use super::Precision;
 use super::precision::brightest_source;
 use super::solids::{from_face_planes, outside_by, size};
 use crate::reference::{PrimaryRays, World};
-use crate::scene::{BoundingSphere, KernelFrame, Light, Primitive, Scene, Solid};
+use crate::scene::{BoundingSphere, Light, Primitive, Scene, SceneSpace, Solid};
 use world::F32World;
 
 /// What rounding to `f32` does to a picture, as far as is known.
@@ -28,7 +28,7 @@ pub enum Rounding {
     Mild,
     /// No more than a stray one of the pixels that were tried is changed.
     Harmless { tried: usize },
-    /// So many of the pixels that were tried are changed by more than [`Precision::rounding_bar`].
+    /// So many of the pixels that were tried are changed by more than [`Precision::rounding_tolerance`].
     Harmful { wrong: usize, tried: usize, cause: Cause },
     /// Lengths differ by `ratio`, and to try pixels would take too long: solids, lights and generations are too many.
     Unknown { ratio: f64 },
@@ -55,7 +55,7 @@ pub enum Near {
     Camera {
         distance: f64,
     },
-    /// Nothing is, but curved mirrors enlarge it.
+    /// Nothing is, but curved mirrors magnify it.
     Mirrors,
 }
 
@@ -72,7 +72,7 @@ impl fmt::Display for Cause {
         match near {
             Near::Primitive { primitive, size } => write!(f, "primitive {} is {} wide", primitive + 1, Short(size)),
             Near::Camera { distance } => write!(f, "the camera is {} from it", Short(distance)),
-            Near::Mirrors => write!(f, "curved mirrors that mirror each other enlarge that"),
+            Near::Mirrors => write!(f, "curved mirrors that mirror each other magnify that"),
         }
     }
 }
@@ -104,7 +104,7 @@ const MOST_WORK: f64 = (1_u64 << 25) as f64;
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Doubt {
     Lengths,
-    /// Lengths are mild, and curved mirrors may enlarge rounding.
+    /// Lengths are mild, and curved mirrors may magnify rounding.
     Mirrors,
 }
 
@@ -126,14 +126,14 @@ impl Doubt {
 /// smallest solid.
 const MILD_RATIO: f64 = 8192.0;
 
-/// An angle's error is at most that of a surface, 8u, against its size; where mirrors enlarge it to less than 1/510, it is
+/// An angle's error is at most that of a surface, 8u, against its size; where mirrors magnify it to less than 1/510, it is
 /// not seen.
 const MILD_RATIO_IN_MIRRORS: f64 = 1.0 / (510.0 * 8.0 * (f32::EPSILON as f64 / 2.0));
 
 /// A quarter of a pixel.
 const MILD_SHIFT_PIXELS: f64 = 0.25;
 
-/// How much a curved mirror enlarges the error of an angle: about that between facing spheres (catalogue MR-2), which are
+/// How much a curved mirror magnifies the error of an angle: about that between facing spheres (catalogue MR-2), which are
 /// nearer to each other than most.
 const MIRROR_GAIN: f64 = 5.0;
 
@@ -154,8 +154,8 @@ pub fn is_close_up(scene: &Scene, precision: Precision) -> bool {
 }
 
 /// The frame that the accurate kernel calculates a scene's picture in.
-pub fn kernel_frame(scene: &Scene, precision: Precision) -> KernelFrame {
-    if is_close_up(scene, precision) { KernelFrame::close_up(scene) } else { KernelFrame::of(scene) }
+pub fn scene_space(scene: &Scene, precision: Precision) -> SceneSpace {
+    if is_close_up(scene, precision) { SceneSpace::close_up(scene) } else { SceneSpace::of(scene) }
 }
 
 /// For a picture of so many pixels in `depth` generations, silhouettes of which that are seen directly move by no more than
@@ -191,7 +191,7 @@ fn rays_of_pixel(scene: &Scene, depth: u32) -> f64 {
 
 /// No coordinate is larger, nor a size, seen from where the kernel does.
 fn extent(scene: &Scene) -> f64 {
-    2.0 / KernelFrame::of(scene).scale
+    2.0 / SceneSpace::of(scene).scale
 }
 
 /// Whether a light is above the plane of a flat face by so little that `f32` takes it for one in the plane: then the face
@@ -216,7 +216,7 @@ fn ratio_of_lengths(scene: &Scene) -> f64 {
     extent(scene) / eyes.map(nearest).fold(smallest, f64::min)
 }
 
-/// How many times an error of an angle may be enlarged, and then seen, by curved mirrors.
+/// How many times an error of an angle may be magnified, and then seen, by curved mirrors.
 fn gain_of_mirrors(scene: &Scene, depth: u32) -> f64 {
     let is_curved = |primitive: &&Primitive| !matches!(primitive.solid, Solid::Box { .. });
     let mirrors = scene.primitives.iter().filter(is_curved).map(|primitive| primitive.material.specular);
@@ -224,11 +224,11 @@ fn gain_of_mirrors(scene: &Scene, depth: u32) -> f64 {
 }
 
 fn try_pixels(scene: &Scene, size: [u32; 2], count: usize, doubt: Doubt) -> Rounding {
-    let frame = kernel_frame(scene, Precision::F32);
+    let frame = scene_space(scene, Precision::F32);
     let (exact, rounded) = (World::new(scene), F32World::new(scene, &frame));
     let rays = PrimaryRays::new(&scene.camera, size[0], size[1]);
     let pixels = pixels(size, count.min(MOST_TRIED));
-    let tolerance = (Precision::F32.rounding_bar() * brightest_source(scene).max(1.0)) as f32;
+    let tolerance = (Precision::F32.rounding_tolerance() * brightest_source(scene).max(1.0)) as f32;
     let wrong: Vec<Vec<u32>> = pixels
         .par_iter()
         .filter_map(|&[column, row]| {
@@ -268,7 +268,7 @@ fn pixels([width, height]: [u32; 2], count: usize) -> Vec<[u32; 2]> {
 }
 
 /// `met`: by the paths of wrong pixels.
-fn cause(scene: &Scene, frame: &KernelFrame, met: &[usize]) -> Cause {
+fn cause(scene: &Scene, frame: &SceneSpace, met: &[usize]) -> Cause {
     let solid = |primitive: usize| &scene.primitives[primitive].solid;
     let rounded = |primitive: usize| {
         let place = (solid(primitive).position() - frame.origin).abs().max_element();

@@ -4,9 +4,9 @@ use glam::{DMat3, DVec3, Vec3};
 
 use super::line::{AxisLine, Face, Interval, Line, Ray, ordered_roots};
 use crate::plan::{Precision, solids};
-use crate::scene::{BoxNearby, Curve, CylinderNearby, KernelFrame, Solid, SphereNearby, world_from_box};
+use crate::scene::{BoxNearby, Curve, CylinderNearby, SceneSpace, Solid, SphereNearby, world_from_box};
 
-/// Kernel frame. What the kernel has as a value and its error is `f64`.
+/// Scene space. What the kernel has as a value and its error is `f64`.
 #[derive(Debug, Clone)]
 pub enum F32Solid {
     Sphere {
@@ -133,7 +133,7 @@ impl Met {
 
 impl F32Solid {
     /// As the kernel's records have it.
-    pub fn of(solid: &Solid, frame: &KernelFrame) -> Self {
+    pub fn of(solid: &Solid, frame: &SceneSpace) -> Self {
         let scale = frame.scale;
         let length = |length: f64| (length * scale) as f32;
         match *solid {
@@ -353,7 +353,7 @@ impl F32Solid {
         }
     }
 
-    /// Point and outward unit normal of a face, kernel frame.
+    /// Point and outward unit normal of a face, scene space.
     fn surface(&self, at: &Met, s: f32, face: Face) -> (Vec3, Vec3) {
         match (self, at) {
             (&Self::Sphere { center, radius }, Met::Plain(line)) => {
@@ -520,6 +520,6 @@ fn nearer_to_side(at: &AxisLine, axis: DVec3, sine: f32, cosine: f32, s: f32, le
 }
 
 /// Whether the kernel has it: below that, squares leave the range of `f32`.
-pub fn is_large_enough(radius: f64, frame: &KernelFrame) -> bool {
+pub fn is_large_enough(radius: f64, frame: &SceneSpace) -> bool {
     radius * frame.scale >= Precision::F32.smallest_length()
 }

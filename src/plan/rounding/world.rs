@@ -5,9 +5,9 @@ use glam::{DVec3, Vec3};
 use super::line::{Face, Ray};
 use super::solids::{F32Hit, F32Solid, Origin, SURFACE_ERROR, is_large_enough, unit};
 use crate::plan::solids;
-use crate::scene::{BoundingSphere, Camera, KernelFrame, Light, Projection, Scene};
+use crate::scene::{BoundingSphere, Camera, Light, Projection, Scene, SceneSpace};
 
-/// A scene in the numbers of the `f32` kernel; kernel frame.
+/// A scene in the numbers of the `f32` kernel; scene space.
 pub struct F32World<'a> {
     scene: &'a Scene,
     /// By the primitive's index; `None` of those that are too small for the kernel.
@@ -38,7 +38,7 @@ type HitOf = (F32Hit, usize);
 type Left = Option<HitOf>;
 
 impl<'a> F32World<'a> {
-    pub fn new(scene: &'a Scene, frame: &KernelFrame) -> Self {
+    pub fn new(scene: &'a Scene, frame: &SceneSpace) -> Self {
         let solid =
             |solid| is_large_enough(BoundingSphere::of(solid).radius, frame).then(|| F32Solid::of(solid, frame));
         Self {
@@ -152,7 +152,7 @@ impl<'a> F32World<'a> {
 }
 
 impl F32Light {
-    fn of(light: &Light, frame: &KernelFrame) -> Self {
+    fn of(light: &Light, frame: &SceneSpace) -> Self {
         let (position, radius) = frame.light(light);
         let (position, radius) = (position.as_vec3(), radius as f32);
         Self {

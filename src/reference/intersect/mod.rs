@@ -1,6 +1,6 @@
 //! Ray against one solid: every solid is convex, so a ray's line meets it in one interval with a face at each end.
 //!
-//! The line is first recentred at its point closest to the solid's anchor (NUMERICS.md, «One idea for all four
+//! The line is first recentred at its point closest to the solid's anchor (docs/numerics.md, «One idea for all four
 //! solids»), then the interval is solved about that point. All of it is done in double-double: the answer is that of
 //! the stored ray and solid, rounded once, for silhouettes, needle cones and origins 10¹² radii away alike.
 
@@ -27,7 +27,7 @@ const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 const SOLVE_ERROR: f64 = UNIT_ROUNDOFF * UNIT_ROUNDOFF * 67_108_864.0;
 
 /// Bounds the distance of a rounded hit point to any surface through the exact one, relative to |point| + size
-/// (NUMERICS.md, «Leaving a surface»).
+/// (docs/numerics.md, «Leaving a surface»).
 const SURFACE_ERROR: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// A ray's line about its point closest to a solid's anchor.
@@ -187,7 +187,7 @@ impl PreparedSolid {
 
     /// First point ahead of the ray's origin: where the ray enters, or leaves if it starts inside.
     ///
-    /// An origin within rounding of the surface is on it. The bound is NUMERICS.md's t > 8u(|p|∞ + S)/|n·w|, set against
+    /// An origin within rounding of the surface is on it. The bound is docs/numerics.md's t > 8u(|p|∞ + S)/|n·w|, set against
     /// depths instead: beside an edge the face that the ray leaves by need not be the one that its origin is on.
     pub fn first_hit(&self, ray: &Ray, origin: Origin) -> Option<SolidHit> {
         let relative_error = match origin {

@@ -15,7 +15,7 @@ pub(super) fn sphere() -> Scene {
     course_scene(camera, DVec3::new(0.0, 2.0, -2.0), vec![Primitive::course_default(SolidKind::Sphere)])
 }
 
-pub(super) fn turned_box() -> Scene {
+pub(super) fn rotated_box() -> Scene {
     let mut cube = Primitive::course_default(SolidKind::Box);
     cube.solid.rotate(DVec3::new(30.0, 40.0, 50.0));
     let camera = course_camera(DVec3::new(-2.0, 1.0, -5.5), DVec3::Z);

@@ -79,7 +79,7 @@ fn makers() -> Vec<(Entry, Maker)> {
         ("showcase", showcase::scene, "the four solids among mirrors", "четыре тела среди зеркал"),
         ("start", figures::start, "the course program as it starts", "начальное состояние программы"),
         ("sphere", figures::sphere, "a sphere", "сфера"),
-        ("box", figures::turned_box, "a turned cube", "повёрнутый куб"),
+        ("box", figures::rotated_box, "a turned cube", "повёрнутый куб"),
         ("cylinder", figures::cylinder, "a cylinder", "цилиндр"),
         ("cone", figures::cone, "a cone", "конус"),
         ("four", figures::four, "figure 3.5: the four solids", "рисунок 3.5: четыре примитива"),

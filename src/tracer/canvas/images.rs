@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::super::enlarge::Enlarger;
 use super::super::live_kernel::BLOCK;
 use super::super::parts::Part;
+use super::super::upscale::Upscaler;
 use crate::gpu::{BindingSet, Device, GpuError, Recorder, Resource, StorageImage, Use};
 
 pub struct Image {
@@ -32,8 +32,8 @@ impl Image {
 }
 
 /// The picture shown, made from the smaller image shown.
-pub struct Enlarging {
-    enlarger: Enlarger,
+pub struct Upscaling {
+    upscaler: Upscaler,
     pub picture: Resource,
     /// For each image.
     sets: [Arc<BindingSet>; 2],
@@ -41,24 +41,24 @@ pub struct Enlarging {
     pub is_current: bool,
 }
 
-impl Enlarging {
+impl Upscaling {
     pub fn new(
         device: &Arc<Device>,
         size: [u32; 2],
         traced_size: [u32; 2],
         [first, second]: &[Image; 2],
     ) -> Result<Self, GpuError> {
-        let enlarger = Enlarger::new(device, size, traced_size)?;
+        let upscaler = Upscaler::new(device, size, traced_size)?;
         let picture = Resource::from(&Arc::new(StorageImage::new(device, "picture", size[0], size[1])?));
-        let sets = [enlarger.bind(&picture, &first.resource)?, enlarger.bind(&picture, &second.resource)?];
-        Ok(Self { enlarger, picture, sets, is_current: false })
+        let sets = [upscaler.bind(&picture, &first.resource)?, upscaler.bind(&picture, &second.resource)?];
+        Ok(Self { upscaler, picture, sets, is_current: false })
     }
 
     /// Makes the picture from the image shown, where that has got more since.
     pub fn bring_up_to_date(&mut self, recorder: &mut Recorder, images: &[Image; 2], shown: usize) {
         if !self.is_current {
-            let whole = self.enlarger.whole();
-            self.enlarger.record(recorder, &self.sets[shown], [&self.picture, &images[shown].resource], whole);
+            let whole = self.upscaler.whole();
+            self.upscaler.record(recorder, &self.sets[shown], [&self.picture, &images[shown].resource], whole);
             self.is_current = true;
         }
     }

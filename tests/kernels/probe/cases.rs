@@ -1,7 +1,7 @@
 //! Random solids and rays in numbers that a precision stores exactly, and how far a point is from a solid.
 
 use glam::DVec3;
-use zerkalo::reference::{Departure, Hit, Ray, Solids};
+use zerkalo::reference::{Hit, OriginSurface, Ray, Solids};
 use zerkalo::scene::{Solid, SolidKind};
 use zerkalo::tracer::Precision;
 
@@ -30,7 +30,7 @@ impl Case {
     }
 
     /// As a picture's scene lies in the kernel's frame: no coordinate of a solid or a ray's origin is larger than 2.
-    pub fn in_kernel_frame(random: &mut Random, kind: SolidKind, precision: Precision) -> Self {
+    pub fn in_scene_space(random: &mut Random, kind: SolidKind, precision: Precision) -> Self {
         let case = Self::changed(random, kind, precision, |random, solid| {
             let scale = random.magnitude(-5.0, -0.5) / size(&solid);
             let from = middle(&solid);
@@ -79,8 +79,8 @@ impl Case {
     }
 
     /// By the reference.
-    pub fn cast(&self, ray: &ProbeRay, departure: Departure) -> Option<Hit> {
-        self.reference.nearest(&Ray { origin: ray.origin, direction: ray.direction }, departure)
+    pub fn cast(&self, ray: &ProbeRay, origin_surface: OriginSurface) -> Option<Hit> {
+        self.reference.nearest(&Ray { origin: ray.origin, direction: ray.direction }, origin_surface)
     }
 
     /// A fan of rays from one origin: every second one within 10⁻² of the silhouette, down to the precision's last bit,
@@ -126,7 +126,7 @@ impl Case {
         let (mut hits, mut misses) = (0.0, 1.0);
         for _ in 0..50 {
             let middle = 0.5 * (hits + misses);
-            if self.cast(&ray_at(middle), Departure::Free).is_some() {
+            if self.cast(&ray_at(middle), OriginSurface::Free).is_some() {
                 hits = middle;
             } else {
                 misses = middle;

@@ -1,29 +1,29 @@
-//! What the search tries before the kernel solves anything: the outlines of `glsl/whitted/outlines.glsl` and the boxes of
-//! `hierarchy.glsl`, rounded to the safe side. Kernel frame.
+//! What the search tries before the kernel solves anything: the proxies of `glsl/whitted/proxies.glsl` and the boxes of
+//! `hierarchy.glsl`, rounded to the safe side. Scene space.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
 use super::hierarchy::{Bounds, GROUP, Level};
 use super::whitted_records::{row, unit};
-use crate::scene::{KernelFrame, Solid, SolidKind, world_from_box};
+use crate::scene::{SceneSpace, Solid, SolidKind, world_from_box};
 
 /// A row of the texel buffer.
 type Row = [f32; 4];
 
-/// `place_error` of `glsl/whitted/beam.glsl`.
-fn place_error(frame: KernelFrame) -> f32 {
+/// `place_error` of `glsl/whitted/traversal.glsl`.
+fn place_error(frame: SceneSpace) -> f32 {
     8.0 * f32::EPSILON * frame.reach
 }
 
-/// `DISTANCE_ERROR` of `glsl/whitted/outlines.glsl`.
+/// `DISTANCE_ERROR` of `glsl/whitted/proxies.glsl`.
 const DISTANCE_ERROR: f64 = 8.0 * f32::EPSILON as f64;
 
 /// A size that no ray finds a way through.
 const IMPOSSIBLE: f32 = -1e30;
 
 /// One row for a sphere, two for the others.
-pub fn outline(solid: &Solid, bounds: Bounds, frame: KernelFrame) -> impl Iterator<Item = Row> + use<> {
+pub fn proxy(solid: &Solid, bounds: Bounds, frame: SceneSpace) -> impl Iterator<Item = Row> + use<> {
     let narrow = |vector: DVec3, fourth: f64| row(vector, fourth).map(|number| number as f32);
     let scale = frame.scale;
     let (first, second) = match *solid {
@@ -35,7 +35,7 @@ pub fn outline(solid: &Solid, bounds: Bounds, frame: KernelFrame) -> impl Iterat
             (sphere, None)
         }
         Solid::Box { .. } => {
-            let [middle, half_size] = box_rows(bounds, frame, 2.0, if is_turned(solid) { 0.0 } else { 1.0 });
+            let [middle, half_size] = box_rows(bounds, frame, 2.0, if is_rotated(solid) { 0.0 } else { 1.0 });
             (middle, Some(half_size))
         }
         Solid::Cylinder { ends: [a, b], radius } => {
@@ -53,7 +53,7 @@ pub fn outline(solid: &Solid, bounds: Bounds, frame: KernelFrame) -> impl Iterat
     [first].into_iter().chain(second)
 }
 
-/// What makes a group whole: an outline that is never met.
+/// What makes a group whole: a proxy that is never met.
 pub fn nothing(kind: SolidKind) -> Vec<Row> {
     match kind {
         SolidKind::Sphere => vec![[0.0, 0.0, 0.0, IMPOSSIBLE]],
@@ -64,12 +64,12 @@ pub fn nothing(kind: SolidKind) -> Vec<Row> {
 
 const NO_BOX: [Row; 2] = [[0.0; 4], [IMPOSSIBLE, IMPOSSIBLE, IMPOSSIBLE, 0.0]];
 
-pub fn is_turned(solid: &Solid) -> bool {
+pub fn is_rotated(solid: &Solid) -> bool {
     matches!(solid, Solid::Box { rotation_degrees, .. } if *rotation_degrees != DVec3::ZERO)
 }
 
 /// Middle and half size, rounded outwards by so many place errors.
-fn box_rows(bounds: Bounds, frame: KernelFrame, place_errors: f32, fourth: f32) -> [Row; 2] {
+fn box_rows(bounds: Bounds, frame: SceneSpace, place_errors: f32, fourth: f32) -> [Row; 2] {
     let [x, y, z] = bounds.low.midpoint(bounds.high).as_vec3().to_array();
     let [half_x, half_y, half_z] = ((bounds.high - bounds.low) * 0.5).as_vec3().to_array();
     let outwards = place_errors * place_error(frame);
@@ -80,7 +80,7 @@ fn box_rows(bounds: Bounds, frame: KernelFrame, place_errors: f32, fourth: f32) 
 ///
 /// As the kernel computes it, no box is entered before the one around it: either t is off by a place error at most, at a
 /// slope of 1, the rows by half of one, and each level is larger than what is in it by four.
-pub fn level_rows(level: &Level, height: usize, frame: KernelFrame) -> Vec<Row> {
+pub fn level_rows(level: &Level, height: usize, frame: SceneSpace) -> Vec<Row> {
     let place_errors = (4 * height - 2) as f32;
     let boxes = level.boxes.par_iter().enumerate();
     let mut rows: Vec<_> = boxes
@@ -91,8 +91,8 @@ pub fn level_rows(level: &Level, height: usize, frame: KernelFrame) -> Vec<Row> 
     rows
 }
 
-/// A box around a solid, kernel frame.
-pub fn bounds(solid: &Solid, frame: KernelFrame) -> Bounds {
+/// A box around a solid, scene space.
+pub fn bounds(solid: &Solid, frame: SceneSpace) -> Bounds {
     let around = |center: DVec3, reach: DVec3| Bounds { low: center - reach, high: center + reach };
     // Of a disk across an axis, along each coordinate.
     let disk = |axis: DVec3, radius: f64| (DVec3::ONE - axis * axis).max(DVec3::ZERO).map(f64::sqrt) * radius;

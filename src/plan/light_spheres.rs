@@ -1,4 +1,4 @@
-//! Which lights' balls the camera may see, and where in its picture.
+//! Which light spheres the camera may see, and where in its picture.
 
 use std::f64::consts::FRAC_PI_2;
 use std::ops::Range;
@@ -23,8 +23,8 @@ pub(super) fn decide(scene: &Scene, wishes: &Wishes) -> Decision<usize> {
     let choice = scene.lights.iter().filter(seen).count();
     let reason = match (lights, choice) {
         (0, _) => Reason::NoLights,
-        (_, 0) => Reason::BallsOutOfSight { lights },
-        (lights, seen) => Reason::BallsInSight { lights, seen },
+        (_, 0) => Reason::LightSpheresOutOfSight { lights },
+        (lights, seen) => Reason::LightSpheresInSight { lights, seen },
     };
     Decision { choice, reason }
 }
@@ -40,7 +40,7 @@ pub struct Area {
 impl Area {
     /// Outside of it no primary ray meets a light's ball; `None` where none does anywhere. `aspect`: width by height;
     /// `farthest`: no solid has a part that far from the camera.
-    pub fn of_balls(scene: &Scene, aspect: f64, farthest: f64) -> Option<Self> {
+    pub fn of_light_spheres(scene: &Scene, aspect: f64, farthest: f64) -> Option<Self> {
         let areas = scene.lights.iter().filter_map(|light| Self::of_ball(light, &scene.camera, aspect, farthest));
         areas.reduce(|a, b| Self { low: a.low.min(b.low), high: a.high.max(b.high) })
     }
@@ -52,7 +52,7 @@ impl Area {
         let up = ahead.cross(left);
         let half_height = (vertical_fov_degrees.to_radians() / 2.0).tan();
         let half_width = half_height * aspect;
-        // Where the picture ends to the left and right, below and above, in half extents (COURSE.md, «Primary rays»).
+        // Where the picture ends to the left and right, below and above, in half extents (docs/course-work.md, «Primary rays»).
         let ([right_end, left_end], [low_end, high_end]) = match projection {
             Projection::Centered => ([-1.0, 1.0], [-1.0, 1.0]),
             Projection::Course => ([-1.0, 3.0], [-3.0, 1.0]),

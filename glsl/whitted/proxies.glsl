@@ -1,5 +1,5 @@
-// The outlines of solids: where a ray may meet one at the earliest, and whether it does for sure. In float, on the safe
-// side; src/tracer/outlines.rs writes them. An outline of nothing is never met.
+// The proxies of solids: where a ray may meet one at the earliest, and whether it does for sure. In float, on the safe
+// side; src/tracer/proxies.rs writes them. A proxy of nothing is never met.
 
 // The half chord of a cylinder or a cone, squared, is off by this much of what it comes from: 2u for the difference, 3u for
 // each dot product and 4u for the direction's length, each at most once, and as much again for the sum.
@@ -14,7 +14,7 @@ float chord_rounding() { return 0.0; }
 
 // How near the line comes to a centre is off by so much of the distance D to that: u for the difference from the origin,
 // 11u for how far ahead the closest point is (3u for the dot product, 8u for the direction's length), 2u for the way there
-// and 2u for the squares. D is no more than that way and the radius; an outline has the radius's part in it.
+// and 2u for the squares. D is no more than that way and the radius; a proxy has the radius's part in it.
 const float DISTANCE_ERROR = 16.0 * FLOAT_ROUNDOFF;
 
 // Of a line in a sphere that is larger than the true one, by `error`, at most.
@@ -25,10 +25,10 @@ struct Chord {
     float error;
 };
 
-Chord chord_of(vec4 a, Beam beam) {
-    vec3 to_center = a.xyz - beam.origin;
-    float ahead = dot(to_center, beam.direction);
-    vec3 across = to_center - ahead * beam.direction;
+Chord chord_of(vec4 a, TraversalRay traversal) {
+    vec3 to_center = a.xyz - traversal.origin;
+    float ahead = dot(to_center, traversal.direction);
+    vec3 across = to_center - ahead * traversal.direction;
     float radius = a.w + DISTANCE_ERROR * abs(ahead);
     float error = DISTANCE_ERROR * (abs(ahead) + radius) + place_error();
     return Chord(ahead, radius, radius * radius - dot(across, across), error);
@@ -36,9 +36,9 @@ Chord chord_of(vec4 a, Beam beam) {
 
 // a: centre, radius; larger by DISTANCE_ERROR times the radius and by a place error, for the rounding of the centre and
 // the ray to float (7u * reach in place and as much by the direction, of the double kernel; of the float kernel the
-// camera's 4u). Of an outline of nothing, negative.
-uint key_of_sphere(vec4 a, vec4 b, Beam beam, int entry, uint k) {
-    Chord chord = chord_of(a, beam);
+// camera's 4u). Of a proxy of nothing, negative.
+uint key_of_sphere(vec4 a, vec4 b, TraversalRay traversal, int entry, uint k) {
+    Chord chord = chord_of(a, traversal);
     // Not a number where there is none.
     float half_chord = sqrt(chord.half_squared);
     float leaves = chord.ahead + (half_chord + 3.0 * place_error());
@@ -46,8 +46,8 @@ uint key_of_sphere(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     return key_of(chord.ahead - (half_chord + 3.0 * place_error()), never, entry, k);
 }
 
-void settle_sphere(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
-    Chord chord = chord_of(a, beam);
+void tighten_by_sphere(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout Found found) {
+    Chord chord = chord_of(a, traversal);
     float half_chord = sqrt(max(chord.half_squared, 0.0));
     // Then the true half chord, squared, is no less than 0.77^2 of this one: radius and distance differ by five errors at
     // least, and truly by two less.
@@ -55,34 +55,34 @@ void settle_sphere(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) 
     // The sine of the ray to the surface is half chord by radius; the origin is outside by t times that, or more.
     float rise = 0.77 * half_chord;
     bool is_ahead = (chord.ahead - half_chord) * rise > (HIDING_ERROR * 4.0 * frame.reach) * chord.radius;
-    settle(is_there && is_deep && is_ahead, chord.ahead - rise + 3.0 * place_error(), rise, chord.radius, beam, found);
+    tighten(is_there && is_deep && is_ahead, chord.ahead - rise + 3.0 * place_error(), rise, chord.radius, traversal, found);
 }
 
-// a: centre; b: half sizes and, where the box is no more than its outline, 1. Both rounded outwards by 2 place errors.
-uint key_of_box(vec4 a, vec4 b, Beam beam, int entry, uint k) {
-    vec3 middle = (a.xyz - beam.origin) * beam.inverse;
-    vec3 reach = b.xyz * abs(beam.inverse);
+// a: centre; b: half sizes and, where the box is no more than its proxy, 1. Both rounded outwards by 2 place errors.
+uint key_of_box(vec4 a, vec4 b, TraversalRay traversal, int entry, uint k) {
+    vec3 middle = (a.xyz - traversal.origin) * traversal.inverse;
+    vec3 reach = b.xyz * abs(traversal.inverse);
     ivec3 enters = floatBitsToInt(middle - reach), leaves = floatBitsToInt(middle + reach);
     int near = max(max(enters.x, enters.y), max(enters.z, entry));
     int far = min(min(leaves.x, leaves.y), leaves.z);
     return far < near ? 0xFFFFFFFFu : uint(near) & ~7u | k;
 }
 
-void settle_box(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {
-    vec3 middle = (a.xyz - beam.origin) * beam.inverse;
-    vec3 reach = b.xyz * abs(beam.inverse);
+void tighten_by_box(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout Found found) {
+    vec3 middle = (a.xyz - traversal.origin) * traversal.inverse;
+    vec3 reach = b.xyz * abs(traversal.inverse);
     vec3 enters = middle - reach, leaves = middle + reach;
     float near = max(enters.x, max(enters.y, enters.z)), far = min(leaves.x, min(leaves.y, leaves.z));
-    bool is_deep = b.w == 1.0 && near > beam.plane_error && far - near > 2.0 * beam.plane_error;
+    bool is_deep = b.w == 1.0 && near > traversal.plane_error && far - near > 2.0 * traversal.plane_error;
     // The smallest of three, of which one is right.
-    vec3 slope = abs(beam.direction);
+    vec3 slope = abs(traversal.direction);
     float sine = min(slope.x, min(slope.y, slope.z));
-    settle(is_there && is_deep, near + beam.plane_error, sine, 1.0, beam, found);
+    tighten(is_there && is_deep, near + traversal.plane_error, sine, 1.0, traversal, found);
 }
 
-// A ball around the cylinder that encloses a solid: its centre, and the square of its radius, which is negative where there
+// A bounding sphere around the cylinder that encloses a solid: its centre, and the square of its radius, which is negative where there
 // is no solid. The radius is larger by what rounding may put a line off that: DISTANCE_ERROR of the distance, at
-// most 7 * frame.reach, are 7 place errors, outlines are wrong by up to 4, and the ray's place and direction by one.
+// most 7 * frame.reach, are 7 place errors, proxies are wrong by up to 4, and the ray's place and direction by one.
 vec4 ball_around(vec3 center, float radius, float half_length, bool is_there) {
     float larger = 16.0 * place_error(), squared = radius * radius + half_length * half_length;
     // (r + larger)^2, of which r is no more than the sum of both; rounded a few times.
@@ -90,23 +90,23 @@ vec4 ball_around(vec3 center, float radius, float half_length, bool is_there) {
     return vec4(center, is_there ? squared : -FAR);
 }
 
-// All bits where the ray misses a ball.
-int misses_ball(vec4 ball, Beam beam) {
-    vec3 to_center = ball.xyz - beam.origin;
-    float middle = dot(to_center, beam.direction);
-    vec3 across = to_center - middle * beam.direction;
-    float half_squared = ball.w - dot(across, across);
+// All bits where the ray misses a bounding sphere.
+int misses_sphere(vec4 bounding_sphere, TraversalRay traversal) {
+    vec3 to_center = bounding_sphere.xyz - traversal.origin;
+    float middle = dot(to_center, traversal.direction);
+    vec3 across = to_center - middle * traversal.direction;
+    float half_squared = bounding_sphere.w - dot(across, across);
     // Behind the ray's origin it is where its middle is by more than the radius.
-    return if_negative(half_squared) | if_negative(ball.w + middle * abs(middle));
+    return if_negative(half_squared) | if_negative(bounding_sphere.w + middle * abs(middle));
 }
 
 // a: middle between the ends, radius; b: unit axis, half length.
-uint key_of_cylinder(vec4 a, vec4 b, Beam beam, int entry, uint k) {
-    vec3 from_middle = beam.origin - a.xyz;
-    float closest_t = -dot(from_middle, beam.direction);
-    vec3 closest = from_middle + closest_t * beam.direction;
-    float along = dot(b.xyz, closest), along_slope = dot(b.xyz, beam.direction);
-    vec3 across = closest - along * b.xyz, slope = beam.direction - along_slope * b.xyz;
+uint key_of_cylinder(vec4 a, vec4 b, TraversalRay traversal, int entry, uint k) {
+    vec3 from_middle = traversal.origin - a.xyz;
+    float closest_t = -dot(from_middle, traversal.direction);
+    vec3 closest = from_middle + closest_t * traversal.direction;
+    float along = dot(b.xyz, closest), along_slope = dot(b.xyz, traversal.direction);
+    vec3 across = closest - along * b.xyz, slope = traversal.direction - along_slope * b.xyz;
     float slope_squared = dot(slope, slope), across_squared = dot(across, across);
     float radius = a.w + 4.0 * place_error();
     float product = dot(across, slope);
@@ -127,20 +127,20 @@ uint key_of_cylinder(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     return key_of(near + (closest_t - 4.0 * place_error()), never, entry, k);
 }
 
-vec4 ball_of_cylinder(vec4 a, vec4 b) { return ball_around(a.xyz, a.w, b.w, b.w >= 0.0); }
+vec4 bounding_sphere_of_cylinder(vec4 a, vec4 b) { return ball_around(a.xyz, a.w, b.w, b.w >= 0.0); }
 
-void settle_cylinder(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {}
+void tighten_by_cylinder(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout Found found) {}
 
 // Below this sine of the half-angle a cone is taken for all between the planes of its apex and its base.
 const float LEAST_SINE = 0.015625;
 
 // a: apex, height; b: unit axis, base radius.
-uint key_of_cone(vec4 a, vec4 b, Beam beam, int entry, uint k) {
-    vec3 from_apex = beam.origin - a.xyz;
-    float closest_t = -dot(from_apex, beam.direction);
-    vec3 closest = from_apex + closest_t * beam.direction;
-    float along = dot(b.xyz, closest), along_slope = dot(b.xyz, beam.direction);
-    vec3 across = closest - along * b.xyz, slope = beam.direction - along_slope * b.xyz;
+uint key_of_cone(vec4 a, vec4 b, TraversalRay traversal, int entry, uint k) {
+    vec3 from_apex = traversal.origin - a.xyz;
+    float closest_t = -dot(from_apex, traversal.direction);
+    vec3 closest = from_apex + closest_t * traversal.direction;
+    float along = dot(b.xyz, closest), along_slope = dot(b.xyz, traversal.direction);
+    vec3 across = closest - along * b.xyz, slope = traversal.direction - along_slope * b.xyz;
     float height_squared = a.w * a.w, base_squared = b.w * b.w, by_sum = 1.0 / (height_squared + base_squared);
     float sine_squared = base_squared * by_sum, cosine_squared = height_squared * by_sum, sine = sqrt(sine_squared);
     // With the apex drawn back, so that the side is farther out by 4 place errors.
@@ -176,9 +176,9 @@ uint key_of_cone(vec4 a, vec4 b, Beam beam, int entry, uint k) {
     return key_of(near + (closest_t - 4.0 * place_error()), never, entry, k);
 }
 
-vec4 ball_of_cone(vec4 a, vec4 b) {
+vec4 bounding_sphere_of_cone(vec4 a, vec4 b) {
     float half_height = 0.5 * a.w;
     return ball_around(a.xyz + half_height * b.xyz, b.w, half_height, b.w >= 0.0);
 }
 
-void settle_cone(vec4 a, vec4 b, bool is_there, Beam beam, inout Found found) {}
+void tighten_by_cone(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout Found found) {}

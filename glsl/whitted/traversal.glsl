@@ -12,10 +12,10 @@ const float FLOAT_ROUNDOFF = 5.9604644775390625e-8;
 
 // What a computed position may be off: differences and products of numbers up to 4 * frame.reach, rounded a few times,
 // and the rounding to float of the camera, of a unit of FLOAT_ROUNDOFF * frame.reach, and for the double kernel of all rays
-// and outlines.
+// and proxies.
 float place_error() { return 16.0 * FLOAT_ROUNDOFF * frame.reach; }
 
-struct Beam {
+struct TraversalRay {
     vec3 origin;
     vec3 direction;     // unit
     vec3 inverse;       // 1 / direction, finite
@@ -47,20 +47,20 @@ const float HIDING_ERROR = 32.0 * FLOAT_ROUNDOFF;
 
 const float LEAST_SLOPE = 1e-12;
 
-Beam beam_of(Ray ray) {
-    Beam beam;
-    beam.origin = vec3(ray.origin);
-    beam.direction = vec3(ray.direction);
+TraversalRay traversal_ray_of(Ray ray) {
+    TraversalRay traversal;
+    traversal.origin = vec3(ray.origin);
+    traversal.direction = vec3(ray.direction);
     // A direction changed by 1e-12 misses its place by less than a place error, and 1/0 with all that comes of it is not.
-    vec3 slope = mix(beam.direction, vec3(LEAST_SLOPE), lessThan(abs(beam.direction), vec3(LEAST_SLOPE)));
-    beam.inverse = 1.0 / slope;
-    vec3 steepness = abs(beam.inverse);
-    beam.plane_error = (4.0 * place_error()) * (steepness.x + steepness.y + steepness.z);
-    beam.skipped = NOTHING;
-    beam.after_key = 0u;
-    beam.after_group = -1;
-    beam.target_size = -1.0;
-    return beam;
+    vec3 slope = mix(traversal.direction, vec3(LEAST_SLOPE), lessThan(abs(traversal.direction), vec3(LEAST_SLOPE)));
+    traversal.inverse = 1.0 / slope;
+    vec3 steepness = abs(traversal.inverse);
+    traversal.plane_error = (4.0 * place_error()) * (steepness.x + steepness.y + steepness.z);
+    traversal.skipped = NOTHING;
+    traversal.after_key = 0u;
+    traversal.after_group = -1;
+    traversal.target_size = -1.0;
+    return traversal;
 }
 
 // All bits where a number is negative.
@@ -83,10 +83,10 @@ struct Group {
     uint next_key;  // and the one after it
 };
 
-Group group_of(uint index, bool counts, Beam beam) {
-    uint first_key = beam.after_key + (int(index) > beam.after_group ? 0u : 1u);
+Group group_of(uint index, bool counts, TraversalRay traversal) {
+    uint first_key = traversal.after_key + (int(index) > traversal.after_group ? 0u : 1u);
     uint end = counts ? NO_KEY - first_key : 0u;
-    return Group(int(index), beam.skipped - 8u * index, first_key, end, 0xFFFFFFFFu, 0xFFFFFFFFu);
+    return Group(int(index), traversal.skipped - 8u * index, first_key, end, 0xFFFFFFFFu, 0xFFFFFFFFu);
 }
 
 void take(uint key, uint k, inout Group group) {
@@ -106,9 +106,9 @@ void take(Group group, inout Found found) {
 
 // What is met for sure, at `t` at the latest, ends the search for what lies beyond; or all of it, where that hides the
 // light: it is before the light by more than its rounding, at a sine to the surface of rise by run.
-void settle(bool is_met, float t, float rise, float run, Beam beam, inout Found found) {
-    bool is_shadow = beam.target_size >= 0.0;
-    bool hides = (found.limit - t) * rise > HIDING_ERROR * (beam.target_size + 2.0 * frame.reach) * run;
+void tighten(bool is_met, float t, float rise, float run, TraversalRay traversal, inout Found found) {
+    bool is_shadow = traversal.target_size >= 0.0;
+    bool hides = (found.limit - t) * rise > HIDING_ERROR * (traversal.target_size + 2.0 * frame.reach) * run;
     float limit = is_shadow ? (hides ? HIDDEN : FAR) : t;
     found.limit = is_met && limit < found.limit ? limit : found.limit;
 }

@@ -9,7 +9,7 @@ layout(local_size_x_id = 0, local_size_y_id = 1) in;
 layout(binding = 0, rgba32f) uniform writeonly image2D picture; // one tile, linear RGB; alpha as in the traced one
 layout(binding = 1, rgba32f) uniform readonly image2D traced;   // what that tile needs of the smaller picture
 
-// `EnlargeFrame` of src/tracer/enlarge.rs; pixels.
+// `UpscalePushConstants` of src/tracer/upscale.rs; pixels.
 layout(push_constant, std430) uniform Push {
     uvec2 size;          // of the whole picture
     uvec2 traced_size;   // of the whole smaller one

@@ -1,4 +1,4 @@
-//! `glsl/enlarge.comp`: the pass that brings a picture traced at a smaller size to the size asked for.
+//! `glsl/upscale.comp`: the pass that brings a picture traced at a smaller size to the size asked for.
 
 use std::sync::Arc;
 
@@ -13,7 +13,7 @@ use crate::gpu::{
 /// `Push` of the kernel; pixels.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Pod, Zeroable)]
-struct EnlargeFrame {
+struct UpscalePushConstants {
     size: [u32; 2],
     traced_size: [u32; 2],
     origin: [u32; 2],
@@ -21,18 +21,18 @@ struct EnlargeFrame {
 }
 
 /// The kernel for pictures of one size.
-pub(super) struct Enlarger {
+pub(super) struct Upscaler {
     pipeline: Arc<ComputePipeline>,
     size: [u32; 2],
     traced_size: [u32; 2],
 }
 
-impl Enlarger {
+impl Upscaler {
     pub fn new(device: &Arc<Device>, size: [u32; 2], traced_size: [u32; 2]) -> Result<Self, GpuError> {
         let description = PipelineDescription {
-            shader: &shaders::ENLARGE,
+            shader: &shaders::UPSCALE,
             bindings: &[BindingKind::Picture, BindingKind::PictureRead],
-            push_constant_bytes: size_of::<EnlargeFrame>() as u32,
+            push_constant_bytes: size_of::<UpscalePushConstants>() as u32,
             constants: &WORKGROUP,
         };
         Ok(Self { pipeline: ComputePipeline::new(device, &description)?, size, traced_size })
@@ -61,7 +61,7 @@ impl Enlarger {
         [0, 1].map(|axis| most_traced(tile[axis], self.size[axis], self.traced_size[axis]))
     }
 
-    /// Makes a tile from its [part](Enlarger::traced_tile) of the smaller picture, of which the top left pixel lies in
+    /// Makes a tile from its [part](Upscaler::traced_tile) of the smaller picture, of which the top left pixel lies in
     /// that of the image `traced`.
     pub fn record(
         &self,
@@ -71,7 +71,7 @@ impl Enlarger {
         tile: Tile,
     ) {
         let part = self.traced_tile(tile);
-        let frame = EnlargeFrame {
+        let frame = UpscalePushConstants {
             size: self.size,
             traced_size: self.traced_size,
             origin: [tile.x, tile.y],

@@ -11,7 +11,7 @@ const FARTHEST_LIGHT: f64 = (1_u64 << 60) as f64;
 
 /// From the world frame to the kernel's: (world − origin)·scale, rounded once where `scale` is a power of two.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct KernelFrame {
+pub struct SceneSpace {
     /// World frame.
     pub origin: DVec3,
     pub scale: f64,
@@ -21,13 +21,13 @@ pub struct KernelFrame {
     pub is_close_up: bool,
 }
 
-impl Default for KernelFrame {
+impl Default for SceneSpace {
     fn default() -> Self {
         Self::world(1.0)
     }
 }
 
-impl KernelFrame {
+impl SceneSpace {
     /// The world frame itself, where no coordinate is larger than twice `reach`.
     pub fn world(reach: f32) -> Self {
         Self { origin: DVec3::ZERO, scale: 1.0, reach, is_close_up: false }
@@ -106,10 +106,10 @@ impl Extent {
     /// The farthest coordinate of a solid or of the camera is brought below 2 by a power of two: squares stay far from the
     /// ends of `f32` whatever the scene's unit. The camera's distance counts only where it is the larger, and then by its
     /// power of two.
-    pub fn frame(&self, camera: DVec3) -> KernelFrame {
+    pub fn frame(&self, camera: DVec3) -> SceneSpace {
         let farthest = self.farthest.max((camera - self.origin).abs().max_element());
         let scale = if farthest > 0.0 { 1.0 / power_of_two_below(farthest) } else { 1.0 };
-        KernelFrame { origin: self.origin, scale, reach: 1.0, is_close_up: false }
+        SceneSpace { origin: self.origin, scale, reach: 1.0, is_close_up: false }
     }
 }
 
@@ -182,6 +182,6 @@ mod tests {
             let frame = Extent::of(&balls([(DVec3::splat(center), radius)])).frame(DVec3::ZERO);
             assert!(frame.origin.is_finite() && frame.scale.is_normal(), "{center} {radius}: {frame:?}");
         }
-        assert_eq!(Extent::of(&[]).frame(DVec3::ZERO), KernelFrame::world(1.0));
+        assert_eq!(Extent::of(&[]).frame(DVec3::ZERO), SceneSpace::world(1.0));
     }
 }
