@@ -5,11 +5,12 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 use anyhow::Result;
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::interrupt::Listener;
-use super::options::parse_size;
+use super::options::{parse_algorithm, parse_size};
 use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files};
+use crate::algorithm::Algorithm;
 use crate::gpu::{Device, Messages, Validation};
 use crate::measure::fps_table::{self, FpsTable, OffScreen, Plan, Stage};
 use crate::measure::output::{OutputError, ReportFormat, Table, check_output_path};
@@ -17,15 +18,6 @@ use crate::measure::{Budget, FrameTime, Machine};
 use crate::scene::{Scene, SolidKind};
 use crate::tracer::TracerError;
 use crate::viewer::{Display, PictureWindow, Shown};
-
-/// Kernels that the table is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Kernel {
-    /// The course work's
-    Course,
-    /// The accurate model
-    Whitted,
-}
 
 /// Measure frames a second by kind and number of solids, as in table 4.1 of the course work, beside its figures
 ///
@@ -40,9 +32,9 @@ pub struct FpsArgs {
     /// As the course work did: 30 s in a cell
     #[arg(long, conflicts_with = "seconds")]
     pub full: bool,
-    /// Only this kernel [default: both]
-    #[arg(long, value_enum)]
-    pub kernel: Option<Kernel>,
+    /// Only this algorithm [default: both]
+    #[arg(long, alias = "kernel", value_parser = parse_algorithm(|description| description.is_in_fps_table))]
+    pub algorithm: Option<Algorithm>,
     /// Numbers of solids, of 10, 20 and so on to 100 [default: all]
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = parse_count)]
     pub counts: Vec<usize>,
@@ -157,10 +149,11 @@ impl Stage for InWindow<'_> {
 
     fn draw(
         &mut self,
-        kernel: fps_table::Kernel,
+        algorithm: Algorithm,
         keep_going: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<FrameTime, TracerError> {
-        let Shown { gpu_time_ns, wall_time } = self.window.show(kernel.in_tracer(), &self.scene, keep_going)?;
+        let Shown { gpu_time_ns, wall_time } =
+            self.window.show(fps_table::kernel_of(algorithm)?, &self.scene, keep_going)?;
         Ok(FrameTime { gpu_time_ns, wall_time })
     }
 }
@@ -169,10 +162,7 @@ impl Stage for InWindow<'_> {
 pub(super) fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
     let base = begun.cloned().unwrap_or_else(Plan::of_course);
     let (width, height) = args.size.unwrap_or((base.width, base.height));
-    let kernels = args.kernel.map(|kernel| match kernel {
-        Kernel::Course => vec![fps_table::Kernel::Course],
-        Kernel::Whitted => vec![fps_table::Kernel::Whitted],
-    });
+    let algorithms = args.algorithm.map(|algorithm| vec![algorithm]);
     let mut counts = if args.counts.is_empty() { base.counts } else { args.counts.clone() };
     counts.sort_unstable();
     counts.dedup();
@@ -181,7 +171,7 @@ pub(super) fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
         width,
         height,
         generations: base.generations,
-        kernels: kernels.unwrap_or(base.kernels),
+        algorithms: algorithms.unwrap_or(base.algorithms),
         counts,
         budget: time.map_or(base.budget, Budget::lasting),
         validation: args.measuring.validation.is_on(),

@@ -33,7 +33,7 @@ use crate::measure::fps_table::FpsTableError;
 use crate::measure::output::{OutputError, ReportFormat, check_output_path};
 use crate::plan::PlanError;
 use crate::scene::{Scene, SceneError, gallery as ready};
-use crate::setting::SettingError;
+use crate::settings::SettingsError;
 use crate::tracer::TracerError;
 use crate::viewer::ViewerError;
 
@@ -265,7 +265,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
             || cause.downcast_ref().is_some_and(ViewerError::is_input_error)
             || cause.downcast_ref().is_some_and(FpsTableError::is_input_error)
             || cause.downcast_ref().is_some_and(OutputError::is_input_error)
-            || cause.downcast_ref().is_some_and(SettingError::is_input_error)
+            || cause.downcast_ref().is_some_and(SettingsError::is_input_error)
             || cause.is::<PlanError>()
             || cause.is::<options::Contradictory>()
             || cause.downcast_ref().is_some_and(compare::CompareError::is_input_error)

@@ -1,7 +1,9 @@
 //! Options that several commands have.
 
-use clap::builder::RangedI64ValueParser;
+use clap::ValueEnum;
+use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser};
 
+use crate::algorithm::{Algorithm, Description};
 use crate::frame::Frame;
 use crate::scene::DEPTH_LIMIT;
 use crate::tracer::sampling::{MAX_SAMPLES, Sampling};
@@ -10,6 +12,13 @@ use crate::tracer::sampling::{MAX_SAMPLES, Sampling};
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct Contradictory(pub(super) &'static str);
+
+/// The name of one of the algorithms that can do something.
+pub(super) fn parse_algorithm(can: fn(&Description) -> bool) -> impl TypedValueParser<Value = Algorithm> {
+    let able = Algorithm::value_variants().iter().filter(move |algorithm| can(algorithm.description()));
+    PossibleValuesParser::new(able.filter_map(ValueEnum::to_possible_value))
+        .try_map(|name| <Algorithm as ValueEnum>::from_str(&name, false))
+}
 
 pub(super) fn parse_depth() -> RangedI64ValueParser<u32> {
     clap::value_parser!(u32).range(1..=i64::from(DEPTH_LIMIT))

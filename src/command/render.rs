@@ -5,37 +5,23 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 
 use super::interrupt::Listener;
 use super::options::{parse_depth, parse_error, parse_samples, parse_scale, parse_size};
 use super::streams::{PictureFormat, STREAM, StreamArgs};
 use super::{DeviceArgs, ValidationArgs, print_line, progress_bar, refuse_messages, scene_named};
+use crate::algorithm::{Algorithm, Precision};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Messages};
 use crate::measure::median;
 use crate::reference::{self, RenderError};
 use crate::scene::Scene;
-use crate::setting::{self, Contradiction, Drawing, Setting};
+use crate::settings::{Contradiction, Drawing, RenderSettings};
 use crate::tracer::sampling::Sampling;
-use crate::tracer::{Precision, Tracer, TracerError, limits_of};
+use crate::tracer::{Tracer, TracerError, limits_of};
 use crate::validation::Remarked;
-
-/// Which of the program's tracers draws.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Kernel {
-    /// The course work's, quirks and all
-    Course,
-    /// The accurate model by textbook quadratics in f32: what accuracy costs and gains is measured against it
-    Plain,
-    /// The accurate model
-    #[default]
-    Whitted,
-    /// The accurate model in f64 on the CPU, without Vulkan: the truth, slowly
-    Reference,
-}
 
 /// Render a scene into a PNG (display values) or EXR (linear values) file
 #[derive(Debug, Clone, Args)]
@@ -50,27 +36,27 @@ pub struct RenderArgs {
     /// Pixels, each side 1 to 16384
     #[arg(long, value_name = "WxH", default_value = "1621x701", value_parser = parse_size)]
     pub size: (u32, u32),
-    /// Which tracer draws
-    #[arg(long, value_enum, default_value_t)]
-    pub kernel: Kernel,
-    /// What the whitted kernel calculates in [default: f32, where the picture is right in it]
+    /// Which algorithm draws
+    #[arg(long, alias = "kernel", value_enum, default_value_t)]
+    pub algorithm: Algorithm,
+    /// What whitted calculates in [default: f32, where the picture is right in it]
     #[arg(long, value_enum)]
     pub precision: Option<Precision>,
     /// Generations of a ray, in place of the scene's
     #[arg(long, value_name = "N", value_parser = parse_depth())]
     pub max_depth: Option<u32>,
-    /// Largest change of any linear channel by what the whitted or the plain kernel leaves out, such as 0.002 or 1/510;
+    /// Largest change of any linear channel by what whitted or plain leaves out, such as 0.002 or 1/510;
     /// 0 is exact
     #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error, allow_hyphen_values = true)]
     pub error: f64,
-    /// Anti-aliasing by the whitted kernel: a pixel is the mean of so many rays through fixed places in it, 1 to 64
+    /// Anti-aliasing by whitted: a pixel is the mean of so many rays through fixed places in it, 1 to 64
     #[arg(long, value_name = "N", default_value = "1", value_parser = parse_samples())]
     pub samples: u32,
-    /// Size of the picture that the whitted kernel traces against that of OUT, to which it is brought bilinearly: 1/4 to 1
+    /// Size of the picture that whitted traces against that of OUT, to which it is brought bilinearly: 1/4 to 1
     #[arg(long, value_name = "S", default_value = "1", value_parser = parse_scale)]
     pub scale: f64,
     /// Draw as a file of `zerkalo trade --save-settings` says
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["kernel", "precision", "max_depth", "error", "samples", "scale"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["algorithm", "precision", "max_depth", "error", "samples", "scale"])]
     pub settings: Option<PathBuf>,
     #[command(flatten)]
     pub device: DeviceArgs,
@@ -84,23 +70,14 @@ pub struct RenderArgs {
     pub json: bool,
 }
 
-impl Kernel {
-    fn of(kernel: setting::Kernel) -> Self {
-        match kernel {
-            setting::Kernel::Course => Self::Course,
-            setting::Kernel::Plain => Self::Plain,
-            setting::Kernel::Whitted => Self::Whitted,
-        }
-    }
-}
-
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
 struct Report<'a> {
     width: u32,
     height: u32,
-    kernel: Kernel,
-    /// What the kernel calculated in.
+    #[serde(rename = "kernel")]
+    algorithm: Algorithm,
+    /// What it calculated in.
     precision: Precision,
     /// No linear channel is changed more by what was left out.
     error_bound: f64,
@@ -123,7 +100,7 @@ struct Report<'a> {
 /// A picture, what drew it, and what is to be told of that.
 struct Rendered {
     frame: Frame,
-    kernel: Kernel,
+    algorithm: Algorithm,
     precision: Precision,
     sampling: Sampling,
     error_bound: f64,
@@ -161,44 +138,28 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     refuse_messages(&rendered.messages)
 }
 
-/// For a kernel on a device; `None` for the reference.
-fn setting(args: &RenderArgs) -> Result<Option<Setting>> {
+/// For what draws on a device; `None` for what does on the CPU.
+fn setting(args: &RenderArgs) -> Result<Option<RenderSettings>> {
     if let Some(path) = &args.settings {
-        return Ok(Some(Setting::load(path)?));
+        return Ok(Some(RenderSettings::load(path)?));
     }
-    let refuse = |reason: &str| Err(TracerError::Refused(reason.to_owned()).into());
-    let kernel = match (args.kernel, args.precision) {
-        (Kernel::Reference, _) if args.error > 0.0 => {
-            return refuse("the reference leaves out nothing: --error is for the plain and the whitted kernel");
-        }
-        (Kernel::Reference, Some(Precision::F32)) => {
-            return refuse("the reference calculates in f64 only; --kernel whitted has f32");
-        }
-        (Kernel::Reference, _) if args.samples > 1 || args.scale < 1.0 => {
-            return refuse("the reference takes one sample a pixel: --samples and --scale are for the whitted kernel");
-        }
-        (Kernel::Reference, _) => return Ok(None),
-        (Kernel::Course, _) => setting::Kernel::Course,
-        (Kernel::Plain, _) => setting::Kernel::Plain,
-        (Kernel::Whitted, _) => setting::Kernel::Whitted,
-    };
-    let setting = Setting {
-        kernel,
+    let setting = RenderSettings {
+        algorithm: args.algorithm,
         precision: args.precision,
         error: args.error,
         max_depth: args.max_depth,
         samples: args.samples,
         scale: args.scale,
-        ..Setting::default()
+        ..RenderSettings::default()
     };
     setting.check().map_err(|Contradiction { field, what }| {
         let option = field.replace('_', "-");
         TracerError::Refused(format!("--{option}: {what}"))
     })?;
-    Ok(Some(setting))
+    Ok(args.algorithm.description().is_on_device().then_some(setting))
 }
 
-fn on_device(args: &RenderArgs, scene: &Scene, setting: &Setting) -> Result<Rendered> {
+fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Result<Rendered> {
     // From before the driver's threads compile anything until they are gone: a program that ends in their midst may crash.
     let listener = Listener::start();
     let device = Device::open(args.device.device.as_deref(), args.validation.validation())?;
@@ -219,11 +180,11 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &Setting) -> Result<Rend
         return Err(TracerError::Stopped.into());
     }
     let precision = settings.kernel.precision();
-    let kernel = Kernel::of(setting.kernel);
+    let algorithm = setting.algorithm;
     let sampling = Sampling { samples: settings.samples, scale: settings.scale };
     Ok(Rendered {
         frame,
-        kernel,
+        algorithm,
         precision,
         sampling,
         error_bound,
@@ -259,7 +220,7 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
     let driver = concat!("zerkalo ", env!("CARGO_PKG_VERSION"), ", f64").to_owned();
     Ok(Rendered {
         frame,
-        kernel: Kernel::Reference,
+        algorithm: Algorithm::Reference,
         precision: Precision::F64,
         sampling: Sampling::PLAIN,
         error_bound: 0.0,
@@ -295,7 +256,7 @@ fn render(tracer: &mut Tracer, repeat: Option<u32>, listener: &Listener) -> Resu
 
 /// One line of what was done.
 fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
-    let Rendered { kernel, precision, sampling, error_bound, warning, device, driver, samples_ns, messages, .. } =
+    let Rendered { algorithm, precision, sampling, error_bound, warning, device, driver, samples_ns, messages, .. } =
         rendered;
     let Sampling { samples, scale } = *sampling;
     let gpu_time_ns = median(samples_ns);
@@ -304,7 +265,7 @@ fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
         return Ok(serde_json::to_string(&Report {
             width,
             height,
-            kernel: *kernel,
+            algorithm: *algorithm,
             precision: *precision,
             error_bound: *error_bound,
             warning,

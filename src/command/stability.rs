@@ -5,36 +5,28 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use anyhow::Result;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 
 use super::interrupt::Listener;
+use super::options::parse_algorithm;
 use super::{DeviceArgs, ValidationArgs, print_json, print_line, progress_bar, refuse_messages};
+use crate::algorithm::{ALGORITHMS, Algorithm, Description, Kernel, Precision};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription};
 use crate::measure::stability::{Passed, Row, Summary, error_sheet, short, try_all};
-use crate::tracer::{self, Precision, TracerError};
-
-/// Kernels on a Vulkan device.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Kernel {
-    /// The course work's
-    Course,
-    /// The accurate model by textbook quadratics in f32
-    Plain,
-    /// The accurate model
-    Whitted,
-}
+use crate::settings::RenderSettings;
+use crate::tracer::TracerError;
 
 /// Try the kernels on the catalogue of numerical extremes
 ///
 /// Exits with 1 where a case fails on the whitted kernel; what the others get wrong is the table.
 #[derive(Debug, Clone, Args)]
 pub struct StabilityArgs {
-    /// Only this kernel [default: all]
-    #[arg(long, value_enum)]
-    pub kernel: Option<Kernel>,
-    /// Only this precision of the whitted kernel [default: both, where the device has f64]
+    /// Only this algorithm [default: all]
+    #[arg(long, alias = "kernel", value_parser = parse_algorithm(Description::is_on_device))]
+    pub algorithm: Option<Algorithm>,
+    /// Only this precision of whitted [default: both, where the device has f64]
     #[arg(long, value_enum)]
     pub precision: Option<Precision>,
     /// Fewer rays and smaller pictures: about a minute
@@ -108,32 +100,27 @@ pub fn run(args: &StabilityArgs) -> Result<()> {
     Err(CasesFailed { count: failed.len(), ids }.into())
 }
 
-pub(super) fn kernels(args: &StabilityArgs, device: &DeviceDescription) -> Result<Vec<tracer::Kernel>, TracerError> {
-    use tracer::Kernel::{Course, Plain, Whitted};
-    if let (Some(kernel @ (Kernel::Course | Kernel::Plain)), Some(Precision::F64)) = (args.kernel, args.precision) {
-        let name = if kernel == Kernel::Course { "course" } else { "plain" };
-        return Err(TracerError::Refused(format!(
-            "the {name} kernel calculates in f32 only; --kernel whitted has f64"
-        )));
+pub(super) fn kernels(args: &StabilityArgs, device: &DeviceDescription) -> Result<Vec<Kernel>, TracerError> {
+    if let Some(algorithm) = args.algorithm {
+        let settings = RenderSettings { algorithm, precision: args.precision, ..RenderSettings::default() };
+        settings.check().map_err(|contradiction| TracerError::Refused(contradiction.what))?;
     }
-    let precisions = match args.precision {
-        Some(precision) => vec![precision],
-        None if device.float64 => vec![Precision::F32, Precision::F64],
-        None => vec![Precision::F32],
-    };
-    let whitted = precisions.iter().map(|&precision| Whitted(precision));
-    Ok(match args.kernel {
-        Some(Kernel::Course) => vec![Course],
-        Some(Kernel::Plain) => vec![Plain],
-        Some(Kernel::Whitted) => whitted.collect(),
-        None => [Course, Plain].into_iter().chain(whitted).collect(),
-    })
+    let rows = ALGORITHMS.iter().filter(|row| args.algorithm.is_none_or(|algorithm| algorithm == row.algorithm));
+    let kernels = rows.flat_map(|row| {
+        // Where there is no choice, none is asked for.
+        let is_asked =
+            |kernel: Kernel| !row.has_precisions() || args.precision.is_none_or(|asked| asked == kernel.precision());
+        let is_had =
+            |kernel: Kernel| args.precision.is_some() || device.float64 || kernel.precision() == Precision::F32;
+        row.kernels.iter().copied().filter(move |&kernel| is_asked(kernel) && is_had(kernel))
+    });
+    Ok(kernels.collect())
 }
 
 /// False after Ctrl-C.
 fn try_all_watched(
     device: &Arc<Device>,
-    kernels: &[tracer::Kernel],
+    kernels: &[Kernel],
     is_quick: bool,
     rows: &mut Vec<Row>,
     listener: &Listener,

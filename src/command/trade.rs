@@ -10,8 +10,9 @@ use anyhow::Result;
 use clap::{Args, ValueEnum};
 
 use super::interrupt::Listener;
-use super::options::{Contradictory, parse_error, parse_size};
+use super::options::{Contradictory, parse_algorithm, parse_error, parse_size};
 use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files, scene_named};
+use crate::algorithm::{Algorithm, Description};
 use crate::gpu::Device;
 use crate::measure::output::Table;
 use crate::measure::trade::{
@@ -20,19 +21,8 @@ use crate::measure::trade::{
 use crate::measure::{Budget, Machine};
 use crate::reference::RenderError;
 use crate::scene::Scene;
-use crate::setting::{self, Setting, SettingError, three_digits};
+use crate::settings::{RenderSettings, SettingsError, three_digits};
 use crate::tracer::{TracerError, limits_of};
-
-/// Kernels of the sweep.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Kernel {
-    /// The course work's
-    Course,
-    /// The accurate model without exact sums
-    Plain,
-    /// The accurate model
-    Whitted,
-}
 
 /// Which picture is the true one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -67,9 +57,10 @@ pub struct TradeArgs {
     /// The largest error is of pixels off discontinuities: not beside one whose ray goes another way
     #[arg(long)]
     pub off_edges: bool,
-    /// Only these kernels [default: all]
-    #[arg(long, value_enum, value_name = "KERNEL,KERNEL", value_delimiter = ',')]
-    pub kernel: Vec<Kernel>,
+    /// Only these algorithms [default: all]
+    #[arg(long, alias = "kernel", value_name = "ALGORITHM,ALGORITHM", value_delimiter = ',',
+          value_parser = parse_algorithm(Description::is_on_device))]
+    pub algorithm: Vec<Algorithm>,
     /// Measure each setting so long, seconds [default: 1 s or 9 pairs of frames, whichever is first, but 2 pairs and 0.25 s
     /// at least]
     #[arg(long, value_name = "S", value_parser = parse_seconds)]
@@ -108,7 +99,7 @@ pub fn run(args: &TradeArgs) -> Result<()> {
     let scenes: Vec<(&str, Scene)> =
         args.scenes.iter().map(|name| Ok((name.as_str(), scene_named(name)?))).collect::<Result<_>>()?;
     let outputs = report_files(&args.output, "trade")?;
-    args.save_settings.iter().try_for_each(|path| Setting::check_output_path(path))?;
+    args.save_settings.iter().try_for_each(|path| RenderSettings::check_output_path(path))?;
 
     // From before the driver's threads compile anything until they are gone: a program that ends in their midst may crash.
     let listener = Listener::start();
@@ -159,12 +150,7 @@ pub(super) fn axes(args: &TradeArgs) -> Axes {
         Target::Area => trade::Target::Area,
     };
     let full = Axes::full(target, &args.error.map_or(Vec::new(), |error| vec![error]));
-    let kernels = args.kernel.iter().map(|kernel| match kernel {
-        Kernel::Course => setting::Kernel::Course,
-        Kernel::Plain => setting::Kernel::Plain,
-        Kernel::Whitted => setting::Kernel::Whitted,
-    });
-    if args.kernel.is_empty() { full } else { Axes { kernels: kernels.collect(), ..full } }
+    if args.algorithm.is_empty() { full } else { Axes { algorithms: args.algorithm.clone(), ..full } }
 }
 
 /// Adds a scene to what is measured.
@@ -228,7 +214,7 @@ fn true_picture(conditions: &Conditions, name: &str, scene: &Scene, listener: &L
 }
 
 /// The one answer, with where it comes from.
-fn save_answer(trade: &Trade, path: &std::path::Path) -> Result<(), SettingError> {
+fn save_answer(trade: &Trade, path: &std::path::Path) -> Result<(), SettingsError> {
     let Trade { machine, conditions, scenes } = trade;
     let (Some(scene), Some(&question)) = (scenes.first(), conditions.questions.first()) else { return Ok(()) };
     let Some(place) = scene.answer(question, conditions.counted) else { return Ok(()) };

@@ -8,7 +8,7 @@ use clap::Args;
 use super::interrupt::Listener;
 use super::{DeviceArgs, ValidationArgs, refuse_messages, scene_named};
 use crate::scene::gallery;
-use crate::setting::Setting;
+use crate::settings::RenderSettings;
 use crate::tracer::TracerError;
 use crate::viewer::action::Kernel;
 use crate::viewer::{self, Document, Options};
@@ -53,7 +53,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         return Err(TracerError::Refused(reason.to_owned()).into());
     }
     let scene = scene_named(&args.scene)?;
-    let setting = args.settings.as_deref().map(Setting::load).transpose()?;
+    let setting = args.settings.as_deref().map(RenderSettings::load).transpose()?;
     let is_file = !gallery::has(&args.scene);
     let document = Document::new(scene, is_file.then(|| PathBuf::from(&args.scene)));
     let options = Options {

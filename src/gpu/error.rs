@@ -9,7 +9,7 @@ pub enum GpuError {
     NoLoader(ash::LoadingError),
 
     #[error(
-        "no Vulkan driver found; install one (Debian, Ubuntu: mesa-vulkan-drivers, which also serves machines without a GPU), or do without: zerkalo render SCENE --output OUT.png --kernel reference"
+        "no Vulkan driver found; install one (Debian, Ubuntu: mesa-vulkan-drivers, which also serves machines without a GPU), or do without: zerkalo render SCENE --output OUT.png --algorithm reference"
     )]
     NoDriver,
 

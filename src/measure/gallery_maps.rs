@@ -5,11 +5,12 @@ use std::sync::Arc;
 
 use super::trade::Truth;
 use super::{ComparisonError, ErrorDomain, ImageError, TimedTracer, error_map, image_error};
+use crate::algorithm::Algorithm;
 use crate::frame::{Frame, FrameError};
 use crate::gpu::Device;
 use crate::plan::{PlanError, Precision};
 use crate::scene::Scene;
-use crate::setting::{Kernel, Setting};
+use crate::settings::RenderSettings;
 use crate::tracer::{TracerError, limits_of};
 
 /// A scene by several kernels.
@@ -23,7 +24,7 @@ pub struct SceneMaps {
 /// A kernel, exactly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KernelMap {
-    pub setting: Setting,
+    pub setting: RenderSettings,
     /// Or why it does not draw this scene on this device.
     pub drawn: Result<Drawn, String>,
 }
@@ -50,14 +51,14 @@ pub enum SceneMapsError {
 }
 
 /// The kernels whose errors are drawn; the first also makes the picture.
-fn settings() -> [Setting; 4] {
-    let whitted = |precision| Setting { precision: Some(precision), ..Setting::default() };
-    let f32 = Setting { precision: Some(Precision::F32), ..Setting::default() };
+fn settings() -> [RenderSettings; 4] {
+    let whitted = |precision| RenderSettings { precision: Some(precision), ..RenderSettings::default() };
+    let f32 = RenderSettings { precision: Some(Precision::F32), ..RenderSettings::default() };
     [
         whitted(Precision::F32),
         whitted(Precision::F64),
-        Setting { kernel: Kernel::Plain, ..f32 },
-        Setting { kernel: Kernel::Course, precision: None, ..f32 },
+        RenderSettings { algorithm: Algorithm::Plain, ..f32 },
+        RenderSettings { algorithm: Algorithm::Course, precision: None, ..f32 },
     ]
 }
 
@@ -73,7 +74,7 @@ pub fn scene_maps(
 ) -> Result<SceneMaps, SceneMapsError> {
     let (width, height) = (truth.frame.width(), truth.frame.height());
     let limits = limits_of(device.description());
-    let mut draw = |setting: &Setting| -> Result<Frame, SceneMapsError> {
+    let mut draw = |setting: &RenderSettings| -> Result<Frame, SceneMapsError> {
         let drawing = setting.drawing(scene, &limits, width, height)?;
         let mut tracer = TimedTracer::new(device, scene, &drawing.settings)?;
         tracer.draw(keep_going)?;

@@ -21,10 +21,10 @@ mod solids;
 mod tiling;
 mod traversal_cost;
 
+pub use crate::algorithm::Precision;
 pub(crate) use arrays::{LIGHT_ROWS, MATERIAL_ROWS, VIEW_ROWS, solid_row_count};
 pub use budget::{Approximations, Bounds};
 pub use light_spheres::Area;
-pub use precision::Precision;
 pub use reason::{Line, Reason};
 pub use rounding::{Cause, Near, Rounding, is_close_up, scene_space};
 pub use tiling::{tile_side, tried_under_boxes};

@@ -5,8 +5,9 @@ use maud::{Markup, html};
 use super::ReportError;
 use super::picture::chart;
 use super::text::{both, dash, table, yes_no};
+use crate::algorithm::Algorithm;
 use crate::measure::Clock;
-use crate::measure::fps_table::{Agreement, FpsTable, Kernel, Speeds, published, spread};
+use crate::measure::fps_table::{Agreement, FpsTable, Speeds, published, spread};
 use crate::measure::output::Table;
 use crate::measure::output::markdown::figure;
 use crate::scene::SolidKind;
@@ -40,16 +41,16 @@ pub fn body(fps: &FpsTable) -> Result<Markup, ReportError> {
             ))
         }
         (drawn)
-        @for &kernel in &plan.kernels {
-            h3 { (kernel.name()) ": " (both("frames a second", "кадров в секунду")) " (" (clock) ")" }
-            (of_kernel(fps, kernel))
+        @for &algorithm in &plan.algorithms {
+            h3 { (algorithm.name()) ": " (both("frames a second", "кадров в секунду")) " (" (clock) ")" }
+            (of_algorithm(fps, algorithm))
         }
         h3 { (both("The course work's conclusions", "Выводы курсовой работы")) }
         (agreement(fps))
     })
 }
 
-fn of_kernel(fps: &FpsTable, kernel: Kernel) -> Markup {
+fn of_algorithm(fps: &FpsTable, algorithm: Algorithm) -> Markup {
     let (clock, published) = (fps.clock(), published());
     let kinds = SolidKind::ALL.into_iter();
     let head: Vec<Markup> = [html! { "n" }]
@@ -58,7 +59,7 @@ fn of_kernel(fps: &FpsTable, kernel: Kernel) -> Markup {
         .collect();
     let row = |&count: &usize| {
         let cells = SolidKind::ALL.into_iter().flat_map(|kind| {
-            let ours = fps.cell(kind, count, kernel).and_then(|cell| spread(cell, clock));
+            let ours = fps.cell(kind, count, algorithm).and_then(|cell| spread(cell, clock));
             [ours, published.get(kind, count).map(figure)].map(|cell| cell.map_or_else(dash, |cell| html! { (cell) }))
         });
         [html! { (count) }].into_iter().chain(cells).collect()
@@ -68,9 +69,11 @@ fn of_kernel(fps: &FpsTable, kernel: Kernel) -> Markup {
 
 /// The note's claims, by the published table and by each kernel's.
 fn agreement(fps: &FpsTable) -> Markup {
-    let speeds = |&kernel: &Kernel| (html! { (kernel.name()) }, fps.speeds(kernel, fps.clock()));
-    let columns: Vec<(Markup, Speeds)> =
-        [(both("published", "в работе"), published())].into_iter().chain(fps.plan.kernels.iter().map(speeds)).collect();
+    let speeds = |&algorithm: &Algorithm| (html! { (algorithm.name()) }, fps.speeds(algorithm, fps.clock()));
+    let columns: Vec<(Markup, Speeds)> = [(both("published", "в работе"), published())]
+        .into_iter()
+        .chain(fps.plan.algorithms.iter().map(speeds))
+        .collect();
     let found: Vec<Agreement> = columns.iter().map(|(_, speeds)| Agreement::of(speeds)).collect();
     let row = |claim: Markup, verdict: &dyn Fn(&Agreement) -> Option<Markup>| {
         let verdicts = found.iter().map(|found| verdict(found).unwrap_or_else(dash));

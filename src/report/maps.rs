@@ -6,7 +6,7 @@ use super::picture::image;
 use super::text::{both, english};
 use super::{NamedMaps, ReportError};
 use crate::measure::{Drawn, KernelMap, error_scale};
-use crate::setting::three_digits;
+use crate::settings::three_digits;
 
 /// Pixels.
 const SCALE: [u32; 2] = [360, 12];

@@ -8,7 +8,7 @@ use super::text::{both, english, table};
 use crate::measure::output::Table;
 use crate::measure::output::markdown::figure;
 use crate::measure::trade::{Answer, Figures, Question, SceneTrade, Trade, answers, figures, rows};
-use crate::setting::three_digits;
+use crate::settings::three_digits;
 
 pub fn body(trade: &Trade) -> Result<Markup, ReportError> {
     let scenes: Vec<Markup> = trade.scenes.iter().map(|scene| of_scene(trade, scene)).collect::<Result<_, _>>()?;

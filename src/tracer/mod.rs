@@ -35,9 +35,9 @@ pub use records::{
     SphereRecord,
 };
 
-pub use crate::plan::Precision;
+pub use crate::algorithm::{Kernel, Precision};
 pub use requirements::Requirements;
-pub use settings::{Kernel, Settings, Work};
+pub use settings::{Settings, Work};
 pub use whitted::{check_precision, scene_bindings, scene_space, upload_scene};
 pub use whitted_records::{SolidRecords, WhittedPushConstants, WhittedRecords};
 

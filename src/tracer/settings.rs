@@ -2,28 +2,8 @@
 
 use super::course::WORKGROUP;
 use super::sampling::Sampling;
-use crate::plan::{Approximations, Plan, Precision};
-
-/// Which kernel draws.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Kernel {
-    /// The course work's.
-    Course,
-    /// The accurate model by textbook quadratics in plain `f32`: what accuracy costs is measured against it.
-    Plain,
-    /// The accurate one.
-    Whitted(Precision),
-}
-
-impl Kernel {
-    /// What it calculates in.
-    pub fn precision(self) -> Precision {
-        match self {
-            Self::Course | Self::Plain => Precision::F32,
-            Self::Whitted(precision) => precision,
-        }
-    }
-}
+use crate::algorithm::Kernel;
+use crate::plan::{Approximations, Plan};
 
 /// How to render, apart from the scene.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use super::selection::{by_shader, few_with_all};
+use crate::algorithm::{ALGORITHMS, Kernel};
 use crate::gpu::DeviceDescription;
 use crate::plan::{Limits, Plan, PlanError, Precision, Structure, Wishes};
 use crate::scene::{Light, Scene, gallery};
 use crate::tracer::sampling::Sampling;
-use crate::tracer::{Kernel, Settings, WORKGROUP};
+use crate::tracer::{Settings, WORKGROUP};
 
 /// Pixels. The checks are per command and per access, not per pixel.
 pub const PICTURE: [u32; 2] = [64, 28];
@@ -106,19 +107,19 @@ struct Way {
 }
 
 fn ways(device: &DeviceDescription) -> Vec<Way> {
-    let precisions: &[Precision] = if device.float64 { &[Precision::F32, Precision::F64] } else { &[Precision::F32] };
-    let whitted = precisions.iter().map(|&precision| Kernel::Whitted(precision));
     let workgroups: &[[u32; 2]] = if device.packets { &[WORKGROUP, NARROW_WORKGROUP] } else { &[WORKGROUP] };
     let mut ways = Vec::new();
-    for kernel in [Kernel::Course, Kernel::Plain].into_iter().chain(whitted) {
+    let kernels = ALGORITHMS.iter().flat_map(|row| row.kernels).copied();
+    for kernel in kernels.filter(|kernel| device.float64 || kernel.precision() == Precision::F32) {
+        let row = kernel.algorithm().description();
         for &workgroup in workgroups {
             let exact = Way { kernel, workgroup, without_boxes: false, error: 0.0, sampling: Sampling::PLAIN };
             ways.push(exact);
-            if kernel != Kernel::Course {
+            if row.has_hierarchy {
                 ways.push(Way { without_boxes: true, ..exact });
                 ways.push(Way { sampling: SAMPLED, ..exact });
             }
-            if matches!(kernel, Kernel::Whitted(_)) {
+            if row.is_accurate {
                 ways.push(Way { error: ERROR, ..exact });
             }
         }
@@ -129,11 +130,7 @@ fn ways(device: &DeviceDescription) -> Vec<Way> {
 impl Way {
     fn name(self) -> String {
         let Self { kernel, workgroup: [width, height], without_boxes, error, sampling } = self;
-        let kernel = match kernel {
-            Kernel::Course => "course".to_owned(),
-            Kernel::Plain => "plain".to_owned(),
-            Kernel::Whitted(precision) => format!("whitted {}", precision.name()),
-        };
+        let kernel = kernel.name();
         let error = (error > 0.0).then(|| format!("error 1/{:.0}", 1.0 / error));
         let boxes = without_boxes.then(|| "without boxes".to_owned());
         let workgroup = ([width, height] != WORKGROUP).then(|| format!("workgroups of {width}x{height}"));
@@ -164,15 +161,16 @@ impl Way {
         let cuts_nothing = (plan.approximations.min_throughput, plan.approximations.min_shadowed, plan.bounds.total())
             == (0.0, 0.0, 0.0);
         let is_as_another = without_boxes && !has_boxes || error > 0.0 && cuts_nothing;
-        // The course's kernel has one light.
-        let is_refused = kernel == Kernel::Course && scene.lights.len() != 1;
+        let row = kernel.algorithm().description();
+        let is_refused = row.lights.is_some_and(|count| count != scene.lights.len());
         let is_shown_elsewhere = sampling != Sampling::PLAIN && subject.name != SAMPLED_SCENE;
         if is_as_another || is_refused || is_shown_elsewhere {
             return Ok(None);
         }
-        let settings = match kernel {
-            Kernel::Course | Kernel::Plain => Settings { kernel, ..Settings::new(width, height) },
-            Kernel::Whitted(_) => Settings::planned(&plan, width, height),
+        let settings = if row.is_accurate {
+            Settings::planned(&plan, width, height)
+        } else {
+            Settings { kernel, ..Settings::new(width, height) }
         };
         let max_tile_side = settings.max_tile_side.min(TILE_SIDE);
         let Sampling { samples, scale } = sampling;

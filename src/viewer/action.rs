@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::preferences::{Preferences, UsualKernel};
 use crate::scene::{Light, Material, Projection, Solid, SolidKind};
-use crate::setting::Setting;
+use crate::settings::RenderSettings;
 use crate::tracer::Precision;
 use crate::tracer::sampling::Sampling;
 
@@ -95,7 +95,7 @@ pub enum Kernel {
     /// The accurate model in `f64` on the CPU.
     Reference,
     /// As the settings' file says, on the Vulkan device.
-    BySetting(Setting),
+    BySetting(RenderSettings),
 }
 
 impl From<UsualKernel> for Kernel {

@@ -18,7 +18,7 @@ use super::screen::ScreenError;
 use super::session::{NextFrame, Session};
 use super::state::State;
 use crate::gpu::{Messages, Validation};
-use crate::setting::Setting;
+use crate::settings::RenderSettings;
 
 /// How to open the window.
 #[derive(Debug, Clone)]
@@ -33,7 +33,7 @@ pub struct Options {
     /// What draws at first instead of the usual kernel.
     pub kernel: Option<Kernel>,
     /// How to draw, before that, and what the panel offers besides the kernels.
-    pub setting: Option<Setting>,
+    pub setting: Option<RenderSettings>,
     /// Acts as if the device was lost after so many frames.
     pub lose_device_after: Option<u64>,
     /// Where preferences and unsaved work are kept.

@@ -10,7 +10,7 @@ use super::edits::Refusal;
 use super::preferences::Preferences;
 use crate::frame::FileFormat;
 use crate::scene::{Scene, gallery};
-use crate::setting::Setting;
+use crate::settings::RenderSettings;
 use crate::tracer::sampling::Sampling;
 
 /// All of the window but its picture.
@@ -22,7 +22,7 @@ pub struct State {
     /// Of the accurate kernels: size of the traced picture against the one shown.
     scale: f64,
     /// Of the settings' file, where there is one.
-    pub setting: Option<Setting>,
+    pub setting: Option<RenderSettings>,
     /// Traces anew though nothing changes, as measuring needs.
     pub is_continuous: bool,
     pub is_help_shown: bool,
@@ -129,7 +129,7 @@ impl State {
     }
 
     /// Drawn at first as a settings' file says, or else by this kernel, and not by the usual one, which stays that.
-    pub fn drawn_by(self, kernel: Option<Kernel>, setting: Option<Setting>) -> Self {
+    pub fn drawn_by(self, kernel: Option<Kernel>, setting: Option<RenderSettings>) -> Self {
         Self { kernel: setting.map(Kernel::BySetting).or(kernel).unwrap_or(self.kernel), setting, ..self }
     }
 
@@ -142,7 +142,7 @@ impl State {
     pub fn sampling(&self) -> Sampling {
         match self.kernel {
             Kernel::Accurate(_) => self.accurate_sampling(),
-            Kernel::BySetting(Setting { samples, scale, .. }) => Sampling { samples, scale },
+            Kernel::BySetting(RenderSettings { samples, scale, .. }) => Sampling { samples, scale },
             Kernel::Course | Kernel::Reference => Sampling::PLAIN,
         }
     }

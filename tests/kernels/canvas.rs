@@ -6,7 +6,7 @@ use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::gpu::{Builds, InFlight, Shader, shaders};
 use zerkalo::scene::{Light, Projection, Scene, Solid, gallery};
-use zerkalo::setting::{self, Setting};
+use zerkalo::settings::RenderSettings;
 use zerkalo::tracer::sampling::Sampling;
 use zerkalo::tracer::{Canvas, Kernel, Precision, Settings, TracerError, Work, limits_of};
 
@@ -186,13 +186,17 @@ fn what_a_setting_leaves_out_the_canvas_leaves_out_as_the_tracer_does() {
     let size = [97, 61];
     let mut easel = Easel::new(&device, size);
     let limits = limits_of(device.description());
-    let plain = Setting { kernel: setting::Kernel::Plain, ..Setting::default() };
+    let plain = RenderSettings { algorithm: zerkalo::algorithm::Algorithm::Plain, ..RenderSettings::default() };
     for setting in [
-        Setting { error: 0.1, ..Setting::default() },
-        Setting { max_depth: Some(2), boxes: false, ..Setting::default() },
-        Setting { error: 0.1, ..plain },
-        Setting { kernel: setting::Kernel::Course, max_depth: Some(2), ..Setting::default() },
-        Setting::default(),
+        RenderSettings { error: 0.1, ..RenderSettings::default() },
+        RenderSettings { max_depth: Some(2), boxes: false, ..RenderSettings::default() },
+        RenderSettings { error: 0.1, ..plain },
+        RenderSettings {
+            algorithm: zerkalo::algorithm::Algorithm::Course,
+            max_depth: Some(2),
+            ..RenderSettings::default()
+        },
+        RenderSettings::default(),
     ] {
         for name in ["corridor", "grid-sphere-40"] {
             let scene = scene(name);

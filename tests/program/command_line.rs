@@ -103,7 +103,7 @@ fn without_repeat_the_one_render_is_timed_and_told_in_a_sentence() {
 #[test]
 fn the_reference_draws_without_a_device_and_says_so() {
     let place = Place::new();
-    let mut command = place.command(&render("four", "x.exr", &["--size", "80x35", "--kernel", "reference", "--json"]));
+    let mut command = place.command(&render("four", "x.exr", &["--size", "80x35", "--algorithm", "reference", "--json"]));
     command.env("VK_DRIVER_FILES", "/nonexistent").env("VK_ICD_FILENAMES", "/nonexistent");
     let run = Run::of(command.output().unwrap());
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
@@ -116,7 +116,7 @@ fn the_reference_draws_without_a_device_and_says_so() {
     assert!(frame.pixels().iter().any(|&pixel| pixel != background), "the solids are there");
 
     for option in [&["--repeat", "2"][..], &["--validate"]] {
-        let arguments = [&["--size", "80x35", "--kernel", "reference"], option].concat();
+        let arguments = [&["--size", "80x35", "--algorithm", "reference"], option].concat();
         place.assert_refused(&render("four", "y.exr", &arguments), 2, &[option[0]]);
     }
 }
@@ -195,7 +195,7 @@ fn a_broken_scene_file_is_refused_with_file_and_line_and_nothing_is_written() {
 fn a_scene_that_the_kernel_cannot_draw_is_refused_with_the_reason() {
     let place = Place::new();
     fs::write(place.path("lights.toml"), "[[lights]]\n[[lights]]\nposition = [1, 2, 3]").unwrap();
-    let course = [SMALL, &["--kernel", "course"]].concat();
+    let course = [SMALL, &["--algorithm", "course"]].concat();
     place.assert_refused(&render("lights.toml", "x.png", &course), 2, &["course kernel", "exactly one light", "2"]);
     place.json(&render("lights.toml", "x.png", &[SMALL, &["--json"]].concat()));
 }
@@ -204,12 +204,15 @@ fn a_scene_that_the_kernel_cannot_draw_is_refused_with_the_reason() {
 fn every_kernel_draws_in_the_precisions_that_it_has_and_refuses_the_other() {
     let place = Place::new();
     for (kernel, precision) in [("course", "f32"), ("whitted", "f32"), ("whitted", "f64"), ("reference", "f64")] {
-        let arguments = [SMALL, &["--kernel", kernel, "--precision", precision, "--json"]].concat();
+        let arguments = [SMALL, &["--algorithm", kernel, "--precision", precision, "--json"]].concat();
         let report = place.json(&render("four", "x.exr", &arguments));
         assert_eq!((&report["kernel"], &report["precision"]), (&kernel.into(), &precision.into()));
     }
+    // The option's name until 2026.
+    let report = place.json(&render("four", "x.exr", &[SMALL, &["--kernel", "course", "--json"]].concat()));
+    assert_eq!(report["kernel"], "course");
     for (kernel, precision) in [("course", "f64"), ("reference", "f32")] {
-        let arguments = [SMALL, &["--kernel", kernel, "--precision", precision]].concat();
+        let arguments = [SMALL, &["--algorithm", kernel, "--precision", precision]].concat();
         place.assert_refused(&render("four", "y.exr", &arguments), 2, &[kernel, precision]);
     }
 }
@@ -230,8 +233,8 @@ fn samples_and_scale_are_the_whitted_kernel_s_alone() {
     assert!(other != plain);
     for kernel in ["course", "plain", "reference"] {
         for (option, value) in [("--samples", "2"), ("--scale", "0.5")] {
-            let arguments = [SMALL, &["--kernel", kernel, option, value]].concat();
-            place.assert_refused(&render("four", "x.exr", &arguments), 2, &[option, "whitted kernel"]);
+            let arguments = [SMALL, &["--algorithm", kernel, option, value]].concat();
+            place.assert_refused(&render("four", "x.exr", &arguments), 2, &[option, "whitted algorithm"]);
         }
     }
 }
@@ -304,7 +307,7 @@ fn wrong_arguments_are_refused_by_name() {
         (&["--scale", "3/2"], "--scale"),
         (&["--error", "1/0"], "--error"),
         (&["--error", "less"], "--error"),
-        (&["--kernel", "none"], "--kernel"),
+        (&["--algorithm", "none"], "--algorithm"),
         (&["--precision", "f16"], "--precision"),
         (&["--unknown"], "--unknown"),
         (&["--device"], "--device"),
@@ -544,7 +547,7 @@ fn render_tells_the_bound_on_what_an_allowed_error_changed() {
     let run = place.run(&render("several", "x.exr", &["--size", "16x7", "--error", "1/50"]));
     assert!(run.stdout.contains("at most ") && run.stdout.lines().count() == 1, "{}", run.stdout);
     for kernel in ["course", "reference"] {
-        let arguments = [SMALL, &["--kernel", kernel, "--error", "1/50"]].concat();
+        let arguments = [SMALL, &["--algorithm", kernel, "--error", "1/50"]].concat();
         place.assert_refused(&render("four", "y.exr", &arguments), 2, &["whitted", "error"]);
     }
 }
@@ -583,7 +586,7 @@ fn plan_refuses_wrong_wishes() {
 #[test]
 fn stability_prints_a_row_a_case_and_fails_only_for_the_accurate_kernel() {
     let place = Place::new();
-    let report = place.json(&["stability", "--quick", "--kernel", "plain", "--json", "-o", "sheet.png"]);
+    let report = place.json(&["stability", "--quick", "--algorithm", "plain", "--json", "-o", "sheet.png"]);
     assert_eq!(keys(&report), ["cases", "complete", "device", "driver", "quick"].into());
     let cases = report["cases"].as_array().unwrap();
     assert!(cases.len() > 80);
@@ -599,8 +602,8 @@ fn stability_prints_a_row_a_case_and_fails_only_for_the_accurate_kernel() {
 fn stability_refuses_what_it_cannot_try() {
     let place = Place::new();
     for (arguments, words) in [
-        (&["stability", "--kernel", "course", "--precision", "f64"][..], "f32 only"),
-        (&["stability", "--kernel", "reference"], "invalid value"),
+        (&["stability", "--algorithm", "course", "--precision", "f64"][..], "f32 only"),
+        (&["stability", "--algorithm", "reference"], "invalid value"),
         (&["stability", "-o", "sheet.jpg"], "sheet.jpg"),
     ] {
         let run = place.run(arguments);

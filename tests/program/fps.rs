@@ -115,7 +115,7 @@ fn every_place_is_measured_by_both_kernels_and_told_in_every_form() {
 #[test]
 fn one_kernel_is_measured_alone_and_the_tables_are_printed() {
     let place = Place::new();
-    let text = place.run_well(&["--size", "16x7", "--counts", "10", "--kernel", "whitted", "--seconds", "0.01"]);
+    let text = place.run_well(&["--size", "16x7", "--counts", "10", "--algorithm", "whitted", "--seconds", "0.01"]);
     assert!(text.contains("## Whitted: frames a second") && !text.contains("## Course"), "{text}");
     assert!(text.contains("| 10 |") && text.contains("57.14"), "{text}");
     assert_eq!(place.names(), BTreeSet::new(), "nothing is written unasked");
@@ -131,7 +131,7 @@ fn what_cannot_be_measured_or_written_is_refused() {
         (&["--seconds", "1", "--full"], "--full"),
         (&["--counts", "10,15"], "--counts"),
         (&["--counts", "0"], "--counts"),
-        (&["--kernel", "reference"], "--kernel"),
+        (&["--algorithm", "reference"], "--algorithm"),
         (&["-o", "table.txt"], "table.txt"),
         (&["--resume", "none.json"], "none.json"),
         (&["--device", "nonsense"], "nonsense"),
@@ -147,12 +147,12 @@ fn what_cannot_be_measured_or_written_is_refused() {
 #[test]
 fn a_table_is_gone_on_with_only_as_it_was_begun() {
     let place = Place::new();
-    place.run_well(&["--size", "16x7", "--counts", "10", "--kernel", "course", "--seconds", "0.01", "-o", "fps.json"]);
+    place.run_well(&["--size", "16x7", "--counts", "10", "--algorithm", "course", "--seconds", "0.01", "-o", "fps.json"]);
     let whole = place.json("fps.json");
     for (arguments, part) in [
         (&["--size", "16x8"][..], "its height is 7, and here it is 8"),
         (&["--counts", "10,20"], "its counts is [10]"),
-        (&["--kernel", "whitted"], "its kernels is [\"course\"]"),
+        (&["--algorithm", "whitted"], "its kernels is [\"course\"]"),
         (&["--full"], "its budget is"),
         (&["--validate"], "its validation is false"),
     ] {

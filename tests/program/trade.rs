@@ -55,7 +55,7 @@ const TINY: &[&str] = &["--size", "48x21", "--seconds", "0.01"];
 #[test]
 fn every_setting_is_measured_and_told_in_every_form() {
     let place = Place::new();
-    let questions = ["--error", "0.5", "--fps", "0.01", "-o", "out", "--kernel", "plain,course"];
+    let questions = ["--error", "0.5", "--fps", "0.01", "-o", "out", "--algorithm", "plain,course"];
     let trade = place.json(&[&["trade", "squares-121", "start"], TINY, &questions].concat());
     assert_eq!((&trade["format"], &trade["conditions"]["width"]), (&"zerkalo-trade-1".into(), &48.into()));
     let scenes = array(&trade, "scenes");
@@ -100,7 +100,7 @@ fn every_setting_is_measured_and_told_in_every_form() {
 #[test]
 fn validation_has_nothing_to_say_of_measuring() {
     let place = Place::new();
-    let options = ["--validate", "--kernel", "course", "--target", "area", "--off-edges"];
+    let options = ["--validate", "--algorithm", "course", "--target", "area", "--off-edges"];
     let text = place.run_well(&[&["trade", "start"], TINY, &options].concat());
     for part in ["under validation", "8x8 points", "| course ", "(ms, off edges)"] {
         assert!(text.contains(part), "{part:?} is not in:\n{text}");
@@ -110,7 +110,7 @@ fn validation_has_nothing_to_say_of_measuring() {
 #[test]
 fn an_answer_is_saved_and_drawn_by() {
     let place = Place::new();
-    let ask = ["--kernel", "plain", "--error", "0.5", "--save-settings", "fast.toml"];
+    let ask = ["--algorithm", "plain", "--error", "0.5", "--save-settings", "fast.toml"];
     let text = place.run_well(&[&["trade", "corridor"], TINY, &ask].concat());
     assert!(text.contains("The fastest within an error of 0.5: **"), "{text}");
     let saved = fs::read_to_string(place.path("fast.toml")).unwrap();
@@ -118,7 +118,7 @@ fn an_answer_is_saved_and_drawn_by() {
     let arguments = ["render", "corridor", "--settings", "fast.toml", "-o", "a.exr", "--size", "48x21"];
     let report = place.json(&arguments);
     assert!(saved.contains(&format!("kernel = {}", report["kernel"])), "{saved}{report}");
-    place.assert_refused(&[&arguments[..], &["--kernel", "plain"]].concat(), 2, &["--settings", "--kernel"]);
+    place.assert_refused(&[&arguments[..], &["--algorithm", "plain"]].concat(), 2, &["--settings", "--algorithm"]);
 
     fs::write(place.path("wrong.toml"), "kernel = \"whitted\"\nfaster = true\n").unwrap();
     let wrong = ["render", "corridor", "--settings", "wrong.toml", "-o", "b.exr"];
@@ -130,7 +130,7 @@ fn an_answer_is_saved_and_drawn_by() {
 #[test]
 fn a_question_without_an_answer_is_a_failure_that_tells_what_comes_nearest() {
     let place = Place::new();
-    let ask = ["--kernel", "plain", "--fps", "1000000", "--save-settings", "none.toml"];
+    let ask = ["--algorithm", "plain", "--fps", "1000000", "--save-settings", "none.toml"];
     let run = place.run(&[&["trade", "start"], TINY, &ask].concat());
     assert_eq!(run.code, Some(1), "{run:?}");
     assert!(run.stderr.contains("no setting of the sweep draws 1.00e6 frames a second on \"start\""), "{}", run.stderr);
@@ -146,7 +146,7 @@ fn what_cannot_be_measured_or_written_is_refused() {
         (&["--error=-1"], "--error"),
         (&["--fps", "0"], "--fps"),
         (&["--seconds", "0"], "--seconds"),
-        (&["--kernel", "reference"], "--kernel"),
+        (&["--algorithm", "reference"], "--algorithm"),
         (&["--target", "blur"], "--target"),
         (&["-o", "table.txt"], "table.txt"),
         (&["--save-settings", "a.toml"], "--save-settings"),
@@ -171,7 +171,7 @@ fn what_cannot_be_measured_or_written_is_refused() {
 fn an_interrupt_keeps_what_is_measured() {
     let place = Place::new();
     let arguments =
-        ["trade", "start", "showcase", "--size", "48x21", "--seconds", "0.3", "--kernel", "plain", "-o", "out"];
+        ["trade", "start", "showcase", "--size", "48x21", "--seconds", "0.3", "--algorithm", "plain", "-o", "out"];
     let program = place.command(&arguments).spawn().unwrap();
     // The first scene is written when it is done.
     wait_until("a scene is measured", || place.path("out/trade.json").exists());
@@ -216,7 +216,7 @@ fn assert_answer_is_right(place: &Place, scene: &str, error: f64, options: &[&st
     let chosen = scene_of_run["answers"][0]["place"].as_u64().unwrap() as usize;
 
     let size = options.iter().position(|option| *option == "--size").map(|place| options[place + 1]).unwrap();
-    place.run_well(&["render", scene, "--kernel", "reference", "--size", size, "-o", "truth.exr"]);
+    place.run_well(&["render", scene, "--algorithm", "reference", "--size", size, "-o", "truth.exr"]);
     place.run_well(&["render", scene, "--settings", "chosen.toml", "--size", size, "-o", "ours.exr"]);
     let frame = |name| Frame::load(&place.path(name)).unwrap();
     let anew = image_error(&frame("truth.exr"), &frame("ours.exr"), ErrorDomain::Linear, None).unwrap();
@@ -239,7 +239,7 @@ fn the_setting_chosen_for_an_error_keeps_it_and_nothing_that_keeps_it_is_a_tenth
     let place = Place::new();
     for (seed, error, kernels) in [(3, 1.0 / 510.0, "whitted"), (8, 0.1, "plain")] {
         let scene = write_scene(&place, seed);
-        let options = ["--size", "64x28", "--seconds", "0.02", "--kernel", kernels];
+        let options = ["--size", "64x28", "--seconds", "0.02", "--algorithm", kernels];
         assert_answer_is_right(&place, &scene, error, &options);
     }
 }

@@ -41,7 +41,7 @@ fn what_is_measured_is_what_the_window_shows_and_ctrl_c_stops_it() {
     let size = [320, 138];
     let rendered = desk.render_by("course", "grid-sphere-10", size);
     let arguments =
-        ["fps", "--in-window", "--size", "320x138", "--counts", "10", "--seconds", "600", "--kernel", "course"];
+        ["fps", "--in-window", "--size", "320x138", "--counts", "10", "--seconds", "600", "--algorithm", "course"];
     let mut program = desk.program(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     let deadline = Instant::now() + Duration::from_secs(60);
     let is_shown = || {

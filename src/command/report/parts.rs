@@ -89,13 +89,13 @@ impl Parts {
         let [width, height] = self.picture();
         let line = |words: &str| Line::new(words, &self.device).to_string();
         let picture = vec![
-            "for SCENE of `zerkalo gallery`, and likewise for --kernel plain, course and --precision f64:".to_owned(),
+            "for SCENE of `zerkalo gallery`, and likewise for --algorithm plain, course and --precision f64:".to_owned(),
             Line::new(
-                &format!("render SCENE --size {width}x{height} --kernel reference -o reference.exr"),
+                &format!("render SCENE --size {width}x{height} --algorithm reference -o reference.exr"),
                 &DeviceArgs::default(),
             )
             .to_string(),
-            line(&format!("render SCENE --size {width}x{height} --kernel whitted --precision f32 -o picture.exr")),
+            line(&format!("render SCENE --size {width}x{height} --algorithm whitted --precision f32 -o picture.exr")),
             "zerkalo compare reference.exr picture.exr".to_owned(),
         ];
         let fps = FpsTable::new(machine.clone(), plan(&self.fps, None));

@@ -17,10 +17,10 @@ pub fn of(table: &FpsTable) -> String {
 }
 
 fn line(table: &FpsTable, figures: &Figures) -> String {
-    let Figures { kind, count, kernel, .. } = figures;
+    let Figures { kind, count, algorithm, .. } = figures;
     let (plan, machine) = (&table.plan, &table.machine);
     let fields = [
-        vec![kind.name().to_owned(), count.to_string(), kernel.name().to_owned()],
+        vec![kind.name().to_owned(), count.to_string(), algorithm.name().to_owned()],
         times(figures.gpu_fps, figures.gpu.as_ref()),
         times(Some(figures.wall_fps), Some(&figures.wall)),
         [
@@ -56,13 +56,12 @@ fn times(fps: Option<f64>, summary: Option<&Summary>) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Kernel;
-    use super::super::tests::example;
+    use super::super::tests::{BOTH, example};
     use super::*;
 
     #[test]
     fn every_cell_is_a_line_of_as_many_fields_as_there_are_columns() {
-        let mut table = example(&[10, 100], &Kernel::ALL);
+        let mut table = example(&[10, 100], &BOTH);
         table.cells[0].gpu_samples_ns = None;
         let text = of(&table);
         assert_eq!(text.lines().count(), 17);

@@ -1,6 +1,6 @@
 use serde::Serialize;
 
-use super::{Cell, Clock, FpsTable, Kernel, Speeds, frames_per_second, published};
+use super::{Algorithm, Cell, Clock, FpsTable, Speeds, frames_per_second, published};
 use crate::measure::Summary;
 use crate::scene::SolidKind;
 
@@ -10,7 +10,7 @@ pub struct Figures {
     pub kind: SolidKind,
     /// Of solids.
     pub count: usize,
-    pub kernel: Kernel,
+    pub algorithm: Algorithm,
     /// Of the median frame; null where the device has no timestamps, as all of the GPU.
     pub gpu_fps: Option<f64>,
     pub wall_fps: f64,
@@ -29,10 +29,10 @@ pub struct Figures {
 /// Of every cell, in the order of measuring.
 pub fn figures(table: &FpsTable) -> Vec<Figures> {
     let published = published();
-    let speeds: Vec<(Kernel, Speeds)> =
-        table.plan.kernels.iter().map(|&kernel| (kernel, table.speeds(kernel, table.clock()))).collect();
+    let speeds: Vec<(Algorithm, Speeds)> =
+        table.plan.algorithms.iter().map(|&algorithm| (algorithm, table.speeds(algorithm, table.clock()))).collect();
     let figures = table.cells.iter().filter_map(|cell| {
-        let (_, speeds) = speeds.iter().find(|(kernel, _)| *kernel == cell.kernel)?;
+        let (_, speeds) = speeds.iter().find(|(kernel, _)| *kernel == cell.algorithm)?;
         of_cell(cell, speeds, &published, table.plan.fewest())
     });
     figures.collect()
@@ -40,13 +40,13 @@ pub fn figures(table: &FpsTable) -> Vec<Figures> {
 
 /// `None` for a cell without samples.
 fn of_cell(cell: &Cell, speeds: &Speeds, published: &Speeds, fewest: usize) -> Option<Figures> {
-    let &Cell { kind, count, kernel, .. } = cell;
+    let &Cell { kind, count, algorithm, .. } = cell;
     let fps = |summary: &Summary| frames_per_second(summary.median_ns as f64);
     let (gpu, wall) = (cell.summary(Clock::Gpu), cell.summary(Clock::Wall)?);
     Some(Figures {
         kind,
         count,
-        kernel,
+        algorithm,
         gpu_fps: gpu.as_ref().map(fps),
         wall_fps: fps(&wall),
         gpu,
@@ -61,14 +61,14 @@ fn of_cell(cell: &Cell, speeds: &Speeds, published: &Speeds, fewest: usize) -> O
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::example;
+    use super::super::tests::{BOTH, example};
     use super::*;
 
     #[test]
     fn ratios_stand_beside_the_published_ones() {
-        let figures = figures(&example(&[10, 100], &Kernel::ALL));
+        let figures = figures(&example(&[10, 100], &BOTH));
         assert_eq!(figures.len(), 16);
-        let cone = figures.iter().rfind(|figures| figures.kernel == Kernel::Course).unwrap();
+        let cone = figures.iter().rfind(|figures| figures.algorithm == Algorithm::Course).unwrap();
         assert_eq!((cone.kind, cone.count), (SolidKind::Cone, 100));
         assert_eq!(cone.gpu_fps, Some(1e9 / 103e6));
         // 103 ms after 13 ms, and 100 ms of spheres: quotients of three roundings each.

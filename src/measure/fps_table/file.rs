@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use super::figures::{Figures, figures};
-use super::{Agreement, Cell, Clock, FpsTable, Kernel, Machine, Plan, chart, csv, markdown, published};
+use super::{Agreement, Algorithm, Cell, Clock, FpsTable, Machine, Plan, chart, csv, markdown, published};
 use crate::frame::Frame;
 use crate::measure::output::{OutputError, ReportFormat, Table};
 
@@ -65,8 +65,9 @@ struct Head {
 
 impl Table for FpsTable {
     fn to_json(&self) -> String {
-        let agreement =
-            |kernel| self.plan.kernels.contains(&kernel).then(|| Agreement::of(&self.speeds(kernel, self.clock())));
+        let agreement = |algorithm| {
+            self.plan.algorithms.contains(&algorithm).then(|| Agreement::of(&self.speeds(algorithm, self.clock())))
+        };
         let document = Document {
             format: FORMAT,
             table: self,
@@ -75,8 +76,8 @@ impl Table for FpsTable {
             figures: figures(self),
             agreement: Agreements {
                 published: Agreement::of(&published()),
-                course: agreement(Kernel::Course),
-                whitted: agreement(Kernel::Whitted),
+                course: agreement(Algorithm::Course),
+                whitted: agreement(Algorithm::Whitted),
             },
         };
         // invariant: structures, lists, numbers and texts, all of which JSON has.
@@ -124,8 +125,8 @@ impl FpsTable {
         self.plan.check()?;
         let mut seen = HashSet::new();
         for cell in &self.cells {
-            let is_planned = self.plan.counts.contains(&cell.count) && self.plan.kernels.contains(&cell.kernel);
-            let is_new = seen.insert((cell.kind, cell.count, cell.kernel.name()));
+            let is_planned = self.plan.counts.contains(&cell.count) && self.plan.algorithms.contains(&cell.algorithm);
+            let is_new = seen.insert((cell.kind, cell.count, cell.algorithm.name()));
             let samples = [Some(&cell.wall_samples_ns), cell.gpu_samples_ns.as_ref()];
             let fault = match () {
                 () if !is_planned => "is not of its plan",
@@ -133,8 +134,12 @@ impl FpsTable {
                 () if samples.into_iter().flatten().any(Vec::is_empty) => "is empty",
                 () => continue,
             };
-            let Cell { kind, count, kernel, .. } = cell;
-            return Err(format!("its cell of {count} of the kind {}, {} kernel, {fault}", kind.name(), kernel.name()));
+            let Cell { kind, count, algorithm, .. } = cell;
+            return Err(format!(
+                "its cell of {count} of the kind {}, {} kernel, {fault}",
+                kind.name(),
+                algorithm.name()
+            ));
         }
         Ok(())
     }
@@ -166,14 +171,14 @@ fn differences<T: Serialize>(theirs: &T, ours: &T) -> Vec<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::example;
+    use super::super::tests::{BOTH, example};
     use super::*;
 
     #[test]
     fn a_table_is_read_as_it_was_written_whole_or_not() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("fps.json");
-        let mut table = example(&[10, 100], &Kernel::ALL);
+        let mut table = example(&[10, 100], &BOTH);
         table.cells[2].gpu_samples_ns = None;
         for _ in 0..2 {
             table.save(&path).unwrap();
@@ -188,10 +193,10 @@ mod tests {
     fn what_no_measuring_leaves_is_not_read() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("fps.json");
-        let good = example(&[10], &[Kernel::Course]);
+        let good = example(&[10], &[Algorithm::Course]);
         let spoil: [(&str, Spoil); 7] = [
             ("plan", |table| table.cells[0].count = 20),
-            ("plan", |table| table.cells[0].kernel = Kernel::Whitted),
+            ("plan", |table| table.cells[0].algorithm = Algorithm::Whitted),
             ("twice", |table| table.cells.push(table.cells[0].clone())),
             ("empty", |table| table.cells[0].wall_samples_ns.clear()),
             ("empty", |table| table.cells[0].gpu_samples_ns = Some(Vec::new())),
@@ -217,7 +222,7 @@ mod tests {
 
     #[test]
     fn another_machine_or_plan_is_told_field_by_field() {
-        let table = example(&[10], &[Kernel::Course]);
+        let table = example(&[10], &[Algorithm::Course]);
         let path = Path::new("fps.json");
         assert!(table.check_goes_on(path, &table.machine, &table.plan).is_ok());
         let machine = Machine { driver: "driver 2".into(), ..table.machine.clone() };
@@ -234,7 +239,7 @@ mod tests {
     #[test]
     fn json_tells_the_figures_and_what_agrees() {
         let document: serde_json::Value =
-            serde_json::from_str(&example(&[10, 20, 100], &[Kernel::Course]).to_json()).unwrap();
+            serde_json::from_str(&example(&[10, 20, 100], &[Algorithm::Course]).to_json()).unwrap();
         assert_eq!((&document["format"], &document["complete"]), (&FORMAT.into(), &true.into()));
         assert_eq!(document["figures"].as_array().unwrap().len(), 12);
         assert_eq!(document["agreement"]["published"]["order_agrees"], true);

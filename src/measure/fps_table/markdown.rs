@@ -1,16 +1,16 @@
 //! The table for people: Markdown whose columns also stand in line in a terminal.
 
-use super::{Agreement, Cell, Clock, FpsTable, Kernel, Speeds, frames_per_second, published};
+use super::{Agreement, Algorithm, Cell, Clock, FpsTable, Speeds, frames_per_second, published};
 use crate::measure::output::markdown::{figure, in_line};
 use crate::scene::SolidKind;
 
 /// Title, machine, a section a kernel, the kernels side by side, and what agrees with the course work.
 pub fn of(table: &FpsTable) -> String {
     let mut lines = head(table);
-    for &kernel in &table.plan.kernels {
-        lines.extend(of_kernel(table, kernel));
+    for &algorithm in &table.plan.algorithms {
+        lines.extend(of_kernel(table, algorithm));
     }
-    if let [first, second] = table.plan.kernels[..] {
+    if let [first, second] = table.plan.algorithms[..] {
         lines.extend(side_by_side(table, first, second));
     }
     lines.extend(agreement(table));
@@ -46,9 +46,9 @@ fn head(table: &FpsTable) -> Vec<String> {
     lines
 }
 
-fn of_kernel(table: &FpsTable, kernel: Kernel) -> Vec<String> {
-    let (name, clock, published) = (kernel.name(), table.clock(), published());
-    let speeds = table.speeds(kernel, clock);
+fn of_kernel(table: &FpsTable, algorithm: Algorithm) -> Vec<String> {
+    let (name, clock, published) = (algorithm.name(), table.clock(), published());
+    let speeds = table.speeds(algorithm, clock);
     let fewest = table.plan.fewest();
     let mut lines = Vec::new();
     for shown in [Clock::Gpu, Clock::Wall] {
@@ -58,7 +58,7 @@ fn of_kernel(table: &FpsTable, kernel: Kernel) -> Vec<String> {
             Clock::Wall => "by wall time (to the picture in the host's memory, nothing shown)",
         };
         let title = format!("{name}: frames a second {of}");
-        let cell = |kind, count| table.cell(kind, count, kernel).and_then(|cell| spread(cell, shown));
+        let cell = |kind, count| table.cell(kind, count, algorithm).and_then(|cell| spread(cell, shown));
         if shown == clock {
             lines.extend(section(&title, table, Some("published"), cell, |kind, count| {
                 published.get(kind, count).map(figure)
@@ -95,8 +95,8 @@ fn shown_by(mode: &str) -> String {
 }
 
 /// How many frames the second draws while the first draws one.
-fn side_by_side(table: &FpsTable, first: Kernel, second: Kernel) -> Vec<String> {
-    let of = |kernel| table.speeds(kernel, table.clock());
+fn side_by_side(table: &FpsTable, first: Algorithm, second: Algorithm) -> Vec<String> {
+    let of = |algorithm| table.speeds(algorithm, table.clock());
     let (of_first, of_second) = (of(first), of(second));
     let ratio = |kind, count| Some(figure(of_second.get(kind, count)? / of_first.get(kind, count)?));
     let title = format!("Frames of the {} kernel to one of the {} kernel", second.name(), first.name());
@@ -125,9 +125,9 @@ fn section(
 }
 
 fn agreement(table: &FpsTable) -> Vec<String> {
-    let speeds = |&kernel: &Kernel| (kernel.name().to_owned(), table.speeds(kernel, table.clock()));
+    let speeds = |&algorithm: &Algorithm| (algorithm.name().to_owned(), table.speeds(algorithm, table.clock()));
     let columns: Vec<(String, Speeds)> =
-        [("published".to_owned(), published())].into_iter().chain(table.plan.kernels.iter().map(speeds)).collect();
+        [("published".to_owned(), published())].into_iter().chain(table.plan.algorithms.iter().map(speeds)).collect();
     let found: Vec<Agreement> = columns.iter().map(|(_, speeds)| Agreement::of(speeds)).collect();
     let mut rows = vec![["claim".to_owned()].into_iter().chain(columns.into_iter().map(|(name, _)| name)).collect()];
     let mut row = |claim: String, verdict: &dyn Fn(&Agreement) -> Option<String>| {
@@ -171,12 +171,12 @@ fn capital(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::example;
+    use super::super::tests::{BOTH, example};
     use super::*;
 
     #[test]
     fn columns_stand_in_line_and_every_table_is_markdown() {
-        let text = of(&example(&[10, 100], &Kernel::ALL));
+        let text = of(&example(&[10, 100], &BOTH));
         let tables: Vec<Vec<&str>> = text
             .split("\n\n")
             .filter(|part| part.starts_with('|'))
@@ -195,7 +195,7 @@ mod tests {
 
     #[test]
     fn the_machine_the_spread_and_the_published_figure_are_told() {
-        let text = of(&example(&[10, 100], &[Kernel::Course]));
+        let text = of(&example(&[10, 100], &[Algorithm::Course]));
         for part in [
             "- device: a device, of \"two\" cores (driver 1)",
             "- program: z 1",
@@ -213,7 +213,7 @@ mod tests {
 
     #[test]
     fn a_table_measured_in_a_window_says_so_and_is_judged_by_the_frames_shown() {
-        let mut table = example(&[10, 100], &[Kernel::Course]);
+        let mut table = example(&[10, 100], &[Algorithm::Course]);
         (table.plan.in_window, table.machine.present_mode) = (true, Some("mailbox".to_owned()));
         let text = of(&table);
         assert!(
@@ -230,7 +230,7 @@ mod tests {
 
     #[test]
     fn what_is_missing_is_a_dash_and_said() {
-        let mut table = example(&[10, 20, 100], &[Kernel::Course]);
+        let mut table = example(&[10, 20, 100], &[Algorithm::Course]);
         table.cells.truncate(5);
         table.plan.validation = true;
         let text = of(&table);

@@ -2,7 +2,8 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::Duration;
 
-use super::{Cell, Kernel, Plan};
+use super::{Cell, Plan, kernel_of};
+use crate::algorithm::Algorithm;
 use crate::gpu::Device;
 use crate::measure::{FrameTime, TimedTracer};
 use crate::scene::{Scene, SolidKind, gallery};
@@ -16,7 +17,7 @@ pub trait Stage {
     /// A frame by one of the plan's kernels. `keep_going` can stop the work.
     fn draw(
         &mut self,
-        kernel: Kernel,
+        algorithm: Algorithm,
         keep_going: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<FrameTime, TracerError>;
 }
@@ -24,7 +25,7 @@ pub trait Stage {
 /// Frames that go to the host's memory, and nothing is shown.
 pub struct OffScreen {
     device: Arc<Device>,
-    tracers: Vec<(Kernel, TimedTracer)>,
+    tracers: Vec<(Algorithm, TimedTracer)>,
 }
 
 impl OffScreen {
@@ -35,35 +36,35 @@ impl OffScreen {
 
 impl Stage for OffScreen {
     fn set_scene(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError> {
-        let tracer = |&kernel: &Kernel| {
+        let tracer = |&algorithm: &Algorithm| {
             let settings = Settings {
-                kernel: kernel.in_tracer(),
+                kernel: kernel_of(algorithm)?,
                 max_depth: Some(plan.generations),
                 ..Settings::new(plan.width, plan.height)
             };
-            Ok((kernel, TimedTracer::new(&self.device, scene, &settings)?))
+            Ok((algorithm, TimedTracer::new(&self.device, scene, &settings)?))
         };
         // The last scene's pictures make room before.
         self.tracers.clear();
-        self.tracers = plan.kernels.iter().map(tracer).collect::<Result<_, TracerError>>()?;
+        self.tracers = plan.algorithms.iter().map(tracer).collect::<Result<_, TracerError>>()?;
         Ok(())
     }
 
     fn draw(
         &mut self,
-        kernel: Kernel,
+        algorithm: Algorithm,
         keep_going: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<FrameTime, TracerError> {
-        let found = self.tracers.iter_mut().find(|(known, ..)| *known == kernel);
+        let found = self.tracers.iter_mut().find(|(known, ..)| *known == algorithm);
         let (_, tracer) =
-            found.ok_or_else(|| TracerError::Refused(format!("no scene for the {} kernel", kernel.name())))?;
+            found.ok_or_else(|| TracerError::Refused(format!("no scene for the {} kernel", algorithm.name())))?;
         tracer.draw(keep_going)
     }
 }
 
 /// What a kernel has measured of one cell.
 struct Run {
-    kernel: Kernel,
+    algorithm: Algorithm,
     gpu_samples_ns: Option<Vec<u64>>,
     wall_samples_ns: Vec<u64>,
     time: Duration,
@@ -88,23 +89,23 @@ pub fn measure(
     let scene = gallery::scene(&name)
         .ok_or_else(|| TracerError::Refused(format!("the gallery has no scene '{name}' to measure")))?;
     stage.set_scene(&scene, plan)?;
-    let mut runs: Vec<Run> = plan.kernels.iter().map(|&kernel| Run::new(kernel)).collect();
+    let mut runs: Vec<Run> = plan.algorithms.iter().map(|&algorithm| Run::new(algorithm)).collect();
     for run in &runs {
-        stage.draw(run.kernel, keep_going)?;
+        stage.draw(run.algorithm, keep_going)?;
     }
     let share_done = |run: &Run| plan.budget.share_done(run.wall_samples_ns.len(), run.time);
     while let Some(next) = runs.iter_mut().min_by(|a, b| share_done(a).total_cmp(&share_done(b))) {
         if share_done(next) >= 1.0 {
             break;
         }
-        next.note(stage.draw(next.kernel, keep_going)?);
+        next.note(stage.draw(next.algorithm, keep_going)?);
     }
     Ok(runs.into_iter().map(|run| run.cell(kind, count)).collect())
 }
 
 impl Run {
-    fn new(kernel: Kernel) -> Self {
-        Self { kernel, gpu_samples_ns: Some(Vec::new()), wall_samples_ns: Vec::new(), time: Duration::ZERO }
+    fn new(algorithm: Algorithm) -> Self {
+        Self { algorithm, gpu_samples_ns: Some(Vec::new()), wall_samples_ns: Vec::new(), time: Duration::ZERO }
     }
 
     fn note(&mut self, FrameTime { gpu_time_ns, wall_time }: FrameTime) {
@@ -117,7 +118,7 @@ impl Run {
     }
 
     fn cell(self, kind: SolidKind, count: usize) -> Cell {
-        let Self { kernel, gpu_samples_ns, wall_samples_ns, .. } = self;
-        Cell { kind, count, kernel, gpu_samples_ns, wall_samples_ns }
+        let Self { algorithm, gpu_samples_ns, wall_samples_ns, .. } = self;
+        Cell { kind, count, algorithm, gpu_samples_ns, wall_samples_ns }
     }
 }

@@ -22,37 +22,19 @@ pub use published::{CLAIMED_OF_SPHERES, CLAIMED_ORDER, published};
 pub use speeds::Speeds;
 
 use super::{Budget, Clock, Machine, Summary};
+use crate::algorithm::{Algorithm, Kernel, Precision};
 use crate::frame::Frame;
 use crate::scene::{DEPTH_LIMIT, SolidKind};
-use crate::tracer::{self, Precision};
+use crate::tracer::TracerError;
 
-/// The kernels that the table is of.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Kernel {
-    /// The course work's.
-    Course,
-    /// The accurate model in `f32`.
-    Whitted,
-}
-
-impl Kernel {
-    pub const ALL: [Self; 2] = [Self::Course, Self::Whitted];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Course => "course",
-            Self::Whitted => "whitted",
-        }
-    }
-
-    /// As the tracer calls it.
-    pub fn in_tracer(self) -> tracer::Kernel {
-        match self {
-            Self::Course => tracer::Kernel::Course,
-            Self::Whitted => tracer::Kernel::Whitted(Precision::F32),
-        }
-    }
+/// What draws the table's cells by an algorithm: in `f32`.
+///
+/// # Errors
+/// The table is not measured with it.
+pub fn kernel_of(algorithm: Algorithm) -> Result<Kernel, TracerError> {
+    let description = algorithm.description();
+    let kernel = description.is_in_fps_table.then(|| algorithm.kernel(Precision::F32)).flatten();
+    kernel.ok_or_else(|| TracerError::Refused(format!("table 4.1 is not measured with {}", description.name)))
 }
 
 /// What is measured, and how long.
@@ -63,7 +45,8 @@ pub struct Plan {
     pub height: u32,
     /// Of a ray.
     pub generations: u32,
-    pub kernels: Vec<Kernel>,
+    #[serde(rename = "kernels")]
+    pub algorithms: Vec<Algorithm>,
     /// Numbers of solids, ascending.
     pub counts: Vec<usize>,
     pub budget: Budget,
@@ -80,7 +63,7 @@ impl Plan {
             width: 1621,
             height: 701,
             generations: 20,
-            kernels: Kernel::ALL.into(),
+            algorithms: Algorithm::in_fps_table().collect(),
             counts: Self::course_counts(),
             budget: Budget::QUICK,
             validation: false,
@@ -100,13 +83,14 @@ impl Plan {
 
     /// Refuses, in a sentence, what cannot be measured.
     pub fn check(&self) -> Result<(), String> {
-        let Self { width, height, generations, kernels, counts, budget, validation: _, in_window: _ } = self;
+        let Self { width, height, generations, algorithms, counts, budget, validation: _, in_window: _ } = self;
         Frame::check_size(*width, *height).map_err(|error| error.to_string())?;
         if !(1..=DEPTH_LIMIT).contains(generations) {
             return Err(format!("{generations} generations are impossible: 1 to {DEPTH_LIMIT}"));
         }
-        if kernels.is_empty() || (1..kernels.len()).any(|place| kernels[..place].contains(&kernels[place])) {
-            return Err("a kernel must be named, and each once".to_owned());
+        if algorithms.is_empty() || (1..algorithms.len()).any(|place| algorithms[..place].contains(&algorithms[place]))
+        {
+            return Err("an algorithm must be named, and each once".to_owned());
         }
         let is_of_table = |count: &usize| Self::course_counts().contains(count);
         if counts.is_empty() || !counts.iter().all(is_of_table) || !counts.is_sorted_by(|a, b| a < b) {
@@ -125,7 +109,8 @@ pub struct Cell {
     pub kind: SolidKind,
     /// Of solids.
     pub count: usize,
-    pub kernel: Kernel,
+    #[serde(rename = "kernel")]
+    pub algorithm: Algorithm,
     /// GPU time of every frame but the first, in order; `None` where the device has no timestamps.
     pub gpu_samples_ns: Option<Vec<u64>>,
     /// Wall time of the same frames.
@@ -165,18 +150,20 @@ impl FpsTable {
     /// The places of the table that lack a kernel, row after row: an interrupted table has whole rows.
     pub fn missing(&self) -> Vec<(SolidKind, usize)> {
         let places = self.plan.counts.iter().flat_map(|&count| SolidKind::ALL.map(|kind| (kind, count)));
-        places.filter(|&(kind, count)| self.plan.kernels.iter().any(|&k| self.cell(kind, count, k).is_none())).collect()
+        places
+            .filter(|&(kind, count)| self.plan.algorithms.iter().any(|&k| self.cell(kind, count, k).is_none()))
+            .collect()
     }
 
     /// Puts in what was measured, in place of what the table had there.
     pub fn put(&mut self, cells: Vec<Cell>) {
-        let place = |cell: &Cell| (cell.kind, cell.count, cell.kernel);
+        let place = |cell: &Cell| (cell.kind, cell.count, cell.algorithm);
         self.cells.retain(|old| !cells.iter().any(|new| place(new) == place(old)));
         self.cells.extend(cells);
     }
 
-    pub fn cell(&self, kind: SolidKind, count: usize, kernel: Kernel) -> Option<&Cell> {
-        self.cells.iter().find(|cell| (cell.kind, cell.count, cell.kernel) == (kind, count, kernel))
+    pub fn cell(&self, kind: SolidKind, count: usize, algorithm: Algorithm) -> Option<&Cell> {
+        self.cells.iter().find(|cell| (cell.kind, cell.count, cell.algorithm) == (kind, count, algorithm))
     }
 
     /// By GPU time where the device has it; in a window by the frames that it took, as in the course work.
@@ -186,9 +173,9 @@ impl FpsTable {
     }
 
     /// Of the median frames of a kernel.
-    pub fn speeds(&self, kernel: Kernel, clock: Clock) -> Speeds {
+    pub fn speeds(&self, algorithm: Algorithm, clock: Clock) -> Speeds {
         let mut speeds = Speeds::default();
-        for cell in self.cells.iter().filter(|cell| cell.kernel == kernel) {
+        for cell in self.cells.iter().filter(|cell| cell.algorithm == algorithm) {
             if let Some(summary) = cell.summary(clock) {
                 speeds.set(cell.kind, cell.count, frames_per_second(summary.median_ns as f64));
             }
@@ -201,12 +188,12 @@ impl FpsTable {
         let clock = self.clock();
         let line = |cell: &Cell| {
             let summary = cell.summary(clock)?;
-            let Cell { kind, count, kernel, .. } = cell;
+            let Cell { kind, count, algorithm, .. } = cell;
             (!summary.outliers.is_empty()).then(|| {
                 format!(
                     "{count} of the kind {}, {} kernel: {} of {} frames (median {:.3} ms, {:.3} to {:.3} ms)",
                     kind.name(),
-                    kernel.name(),
+                    algorithm.name(),
                     summary.outliers.len(),
                     summary.count,
                     summary.median_ns as f64 / 1e6,
@@ -224,7 +211,10 @@ mod tests {
     use super::*;
 
     /// A table whose cell of `count` solids takes `count` ms a frame with spheres and one more for every kind after.
-    pub(super) fn example(counts: &[usize], kernels: &[Kernel]) -> FpsTable {
+    /// That the table is of.
+    pub(in crate::measure) const BOTH: [Algorithm; 2] = [Algorithm::Course, Algorithm::Whitted];
+
+    pub(super) fn example(counts: &[usize], algorithms: &[Algorithm]) -> FpsTable {
         let machine = Machine {
             device: "a device, of \"two\" cores".into(),
             driver: "driver 1".into(),
@@ -235,7 +225,7 @@ mod tests {
             width: 160,
             height: 70,
             generations: 20,
-            kernels: kernels.to_vec(),
+            algorithms: algorithms.to_vec(),
             counts: counts.to_vec(),
             budget: Budget::QUICK,
             validation: false,
@@ -243,11 +233,12 @@ mod tests {
         };
         let mut table = FpsTable::new(machine, plan);
         for (kind, count) in table.missing() {
-            for &kernel in kernels {
-                let time_ns = (count as u64 + kind as u64) * 1_000_000 / (1 + kernel as u64);
+            for &algorithm in algorithms {
+                let time_ns =
+                    (count as u64 + kind as u64) * 1_000_000 / if algorithm == Algorithm::Course { 1 } else { 2 };
                 let wall_samples_ns = [1, 2, 0, 1, 1].map(|more| time_ns + more * 50_000).to_vec();
                 let gpu_samples_ns = Some([0, 0, 0, 0, 0].map(|more| time_ns + more).to_vec());
-                table.cells.push(Cell { kind, count, kernel, gpu_samples_ns, wall_samples_ns });
+                table.cells.push(Cell { kind, count, algorithm, gpu_samples_ns, wall_samples_ns });
             }
         }
         table
@@ -258,14 +249,14 @@ mod tests {
         for kind in SolidKind::ALL {
             assert_eq!(serde_json::to_value(kind).unwrap(), kind.name());
         }
-        for kernel in Kernel::ALL {
-            assert_eq!(serde_json::to_value(kernel).unwrap(), kernel.name());
+        for algorithm in BOTH {
+            assert_eq!(serde_json::to_value(algorithm).unwrap(), algorithm.name());
         }
     }
 
     #[test]
     fn what_is_missing_comes_row_after_row_and_where_any_kernel_lacks() {
-        let mut table = example(&[10, 20], &Kernel::ALL);
+        let mut table = example(&[10, 20], &BOTH);
         assert_eq!(table.missing(), []);
         table.cells.retain(|cell| cell.count == 10);
         assert_eq!(table.missing(), SolidKind::ALL.map(|kind| (kind, 20)));
@@ -275,11 +266,11 @@ mod tests {
 
     #[test]
     fn speeds_are_of_the_median_frame_by_either_clock() {
-        let mut table = example(&[10], &Kernel::ALL);
+        let mut table = example(&[10], &BOTH);
         assert_eq!(table.clock(), Clock::Gpu);
-        assert_eq!(table.speeds(Kernel::Course, Clock::Gpu).get(SolidKind::Sphere, 10), Some(100.0));
-        assert_eq!(table.speeds(Kernel::Whitted, Clock::Gpu).get(SolidKind::Sphere, 10), Some(200.0));
-        let wall = table.speeds(Kernel::Course, Clock::Wall).get(SolidKind::Sphere, 10);
+        assert_eq!(table.speeds(Algorithm::Course, Clock::Gpu).get(SolidKind::Sphere, 10), Some(100.0));
+        assert_eq!(table.speeds(Algorithm::Whitted, Clock::Gpu).get(SolidKind::Sphere, 10), Some(200.0));
+        let wall = table.speeds(Algorithm::Course, Clock::Wall).get(SolidKind::Sphere, 10);
         assert_eq!(wall, Some(1e9 / 10_050_000.0));
         table.plan.in_window = true;
         assert_eq!(table.clock(), Clock::Wall);
@@ -290,7 +281,7 @@ mod tests {
 
     #[test]
     fn outliers_are_told_by_cell() {
-        let mut table = example(&[10], &[Kernel::Course]);
+        let mut table = example(&[10], &[Algorithm::Course]);
         assert_eq!(table.outliers(), Vec::<String>::new());
         table.cells[1].gpu_samples_ns = Some(vec![1_000_000, 1_000_000, 9_000_000, 1_000_000, 1_000_000]);
         let [line] = &table.outliers()[..] else { panic!("one cell has outliers") };

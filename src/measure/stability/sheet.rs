@@ -9,6 +9,7 @@ use plotters::style::register_font;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::scenes::{moved_and_scaled, sheet_ball_on_floor, sheet_far_ball, sheet_thin_cylinder};
+use crate::algorithm::ALGORITHMS;
 use crate::frame::Frame;
 use crate::gpu::Device;
 use crate::measure::{LARGEST_ERROR, SMALLEST_ERROR, error_color};
@@ -37,16 +38,10 @@ fn rows() -> Vec<(&'static str, Scene)> {
     ]
 }
 
-fn columns(device: &Device) -> Vec<(&'static str, Kernel)> {
-    let mut columns = vec![
-        ("course f32", Kernel::Course),
-        ("plain f32", Kernel::Plain),
-        ("whitted f32", Kernel::Whitted(Precision::F32)),
-    ];
-    if device.description().float64 {
-        columns.push(("whitted f64", Kernel::Whitted(Precision::F64)));
-    }
-    columns
+fn columns(device: &Device) -> Vec<(String, Kernel)> {
+    let kernels = ALGORITHMS.iter().flat_map(|row| row.kernels).copied();
+    let kernels = kernels.filter(|kernel| device.description().float64 || kernel.precision() == Precision::F32);
+    kernels.map(|kernel| (format!("{} {}", kernel.algorithm().name(), kernel.precision().name()), kernel)).collect()
 }
 
 /// The sheet: the reference's pictures, and how far each kernel's are from them.

@@ -27,12 +27,8 @@ pub struct Row {
 
 impl Row {
     fn new(case: &Case, kernel: Option<Kernel>, verdict: &Verdict) -> Self {
-        let (kernel, precision) = match kernel {
-            None => ("scene", None),
-            Some(Kernel::Course) => ("course", Some("f32")),
-            Some(Kernel::Plain) => ("plain", Some("f32")),
-            Some(Kernel::Whitted(precision)) => ("whitted", Some(precision.name())),
-        };
+        let (kernel, precision) =
+            kernel.map_or(("scene", None), |kernel| (kernel.algorithm().name(), Some(kernel.precision().name())));
         let worst = verdict.worst;
         let (what, measured, bound) = (worst.what, worst.measured, worst.bound);
         Self { id: case.id.clone(), kernel, precision, pass: verdict.passes(), what, measured, bound }

@@ -26,7 +26,7 @@ fn line(trade: &Trade, scene: &SceneTrade, point: &Point, figures: &Figures) -> 
     let fields = [
         quoted(&scene.scene),
         quoted(&figures.name),
-        setting.kernel.name().to_owned(),
+        setting.algorithm.name().to_owned(),
         setting.precision.map_or(String::new(), |precision| precision.name().to_owned()),
         setting.error.to_string(),
         setting.max_depth.map_or(String::new(), |depth| depth.to_string()),

@@ -1,23 +1,24 @@
 //! A made-up measurement for tests.
 
 use super::{Conditions, Counted, LeftOut, PictureError, Point, SceneTrade, Target, Trade};
+use crate::algorithm::Algorithm;
 use crate::measure::{Budget, Clock, ImageError, Machine};
 use crate::plan::Precision;
-use crate::setting::{Kernel, Setting};
+use crate::settings::RenderSettings;
 
 /// One scene: the baseline at 10 ms, f64 at 20, a bounded and a measured setting at 5 and 2.5, and one with NaN at 1.
 pub fn example() -> Trade {
-    let f32 = Setting { precision: Some(Precision::F32), ..Setting::default() };
-    let f64 = Setting { precision: Some(Precision::F64), ..f32 };
-    let plain = Setting { kernel: Kernel::Plain, ..f32 };
+    let f32 = RenderSettings { precision: Some(Precision::F32), ..RenderSettings::default() };
+    let f64 = RenderSettings { precision: Some(Precision::F64), ..f32 };
+    let plain = RenderSettings { algorithm: Algorithm::Plain, ..f32 };
     let points = vec![
         point(f32, Some(0.0), 0.002, 10.0),
         point(f64, Some(0.0), 3e-8, 20.0),
-        point(Setting { error: 1.0 / 255.0, ..f32 }, Some(0.003), 0.001, 5.0),
-        point(Setting { max_depth: Some(2), ..f32 }, None, 0.2, 2.5),
+        point(RenderSettings { error: 1.0 / 255.0, ..f32 }, Some(0.003), 0.001, 5.0),
+        point(RenderSettings { max_depth: Some(2), ..f32 }, None, 0.2, 2.5),
         point(plain, None, f64::INFINITY, 1.0),
     ];
-    let course = Setting { kernel: Kernel::Course, precision: None, ..f32 };
+    let course = RenderSettings { algorithm: Algorithm::Course, precision: None, ..f32 };
     let scene = SceneTrade {
         scene: "room".to_owned(),
         solids: 7,
@@ -47,7 +48,7 @@ pub fn example() -> Trade {
     }
 }
 
-fn point(setting: Setting, bound: Option<f64>, error: f64, time_ms: f64) -> Point {
+fn point(setting: RenderSettings, bound: Option<f64>, error: f64, time_ms: f64) -> Point {
     let is_finite = error.is_finite();
     let image = ImageError {
         rmse: Some(error / 4.0).filter(|_| is_finite),

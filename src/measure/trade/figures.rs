@@ -1,7 +1,7 @@
 use serde::Serialize;
 
 use super::{Conditions, Point, Question, SceneTrade, front};
-use crate::setting::Setting;
+use crate::settings::RenderSettings;
 
 /// A point in figures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -50,7 +50,7 @@ pub struct Answer {
     pub question: Question,
     /// Among the points; null where no setting will do.
     pub place: Option<usize>,
-    pub setting: Option<Setting>,
+    pub setting: Option<RenderSettings>,
     pub name: Option<String>,
 }
 

@@ -4,7 +4,7 @@ use super::figures::{Figures, figures};
 use super::{Conditions, Counted, Point, Question, SceneTrade, Target, Trade};
 use crate::measure::Clock;
 use crate::measure::output::markdown::{figure, in_line};
-use crate::setting::three_digits;
+use crate::settings::three_digits;
 
 /// Title, machine, what the columns mean, and a section a scene.
 pub fn of(trade: &Trade) -> String {

@@ -28,7 +28,7 @@ pub use truth::{Truth, TruthError, truth};
 
 use super::{Budget, Clock, ImageError, Machine, median, quartiles};
 use crate::scene::Scene;
-use crate::setting::Setting;
+use crate::settings::RenderSettings;
 
 /// Which picture is the true one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
@@ -107,7 +107,7 @@ impl PictureError {
 /// A setting, measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Point {
-    pub setting: Setting,
+    pub setting: RenderSettings,
     /// What it leaves out changes no linear channel by more: proven, rounding not in it. `None` where nothing is proven.
     pub bound: Option<f64>,
     pub error: PictureError,
@@ -127,7 +127,7 @@ impl Point {
 /// A setting that was not measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LeftOut {
-    pub setting: Setting,
+    pub setting: RenderSettings,
     pub reason: String,
 }
 

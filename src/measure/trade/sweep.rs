@@ -1,15 +1,16 @@
 //! Which settings are tried on a scene. Pure: no Vulkan.
 
 use super::{LeftOut, Target};
-use crate::plan::{Limits, PlanError, Precision};
+use crate::algorithm::{ALGORITHMS, Algorithm, Description, Precision};
+use crate::plan::{Limits, PlanError};
 use crate::scene::Scene;
-use crate::setting::{Kernel, Setting};
+use crate::settings::RenderSettings;
 use crate::tracer::Settings;
 
 /// What is varied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axes {
-    pub kernels: Vec<Kernel>,
+    pub algorithms: Vec<Algorithm>,
     /// Allowed errors, besides none.
     pub errors: Vec<f64>,
     /// Numbers of generations below the scene's, besides that.
@@ -31,7 +32,7 @@ impl Axes {
         errors.sort_by(f64::total_cmp);
         errors.dedup();
         Self {
-            kernels: Kernel::ALL.into(),
+            algorithms: Algorithm::on_device().collect(),
             errors,
             generations: vec![1, 2, 3, 4, 6, 8, 12, 16, 24, 32],
             samples: match target {
@@ -48,7 +49,7 @@ impl Axes {
 /// A setting with what it comes to on a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Planned {
-    pub setting: Setting,
+    pub setting: RenderSettings,
     pub settings: Settings,
     /// See [`Point::bound`](super::Point::bound).
     pub bound: Option<f64>,
@@ -65,8 +66,8 @@ pub struct Sweep {
     pub left_out: Vec<LeftOut>,
 }
 
-const BASELINE: Setting = Setting {
-    kernel: Kernel::Whitted,
+const BASELINE: RenderSettings = RenderSettings {
+    algorithm: Algorithm::Whitted,
     precision: Some(Precision::F32),
     error: 0.0,
     max_depth: None,
@@ -82,9 +83,9 @@ impl Sweep {
     /// # Errors
     /// The scene is not for this device, whatever the setting.
     pub fn of(scene: &Scene, axes: &Axes, limits: &Limits, [width, height]: [u32; 2]) -> Result<Self, PlanError> {
-        let plan = |setting: Setting| {
+        let plan = |setting: RenderSettings| {
             let drawing = setting.drawing(scene, limits, width, height)?;
-            let is_of_model = setting.kernel == Kernel::Whitted && setting.max_depth.is_none();
+            let is_of_model = setting.algorithm.description().is_accurate && setting.max_depth.is_none();
             let is_of_points = axes.target == Target::Point && setting.samples == 1 && setting.scale == 1.0;
             let bound = (is_of_model && is_of_points).then_some(drawing.error_bound);
             Ok::<_, PlanError>(Planned { setting, settings: drawing.settings, bound })
@@ -106,33 +107,31 @@ impl Sweep {
     }
 }
 
-/// Every kernel and precision, exactly; with each allowed error; with each number of generations; without boxes. The
-/// whitted kernel in `f32` with each number of samples and at each scale. The course's kernel, which is of another model,
-/// only exactly.
-fn candidates(scene: &Scene, axes: &Axes) -> Vec<Setting> {
-    let mut bases = Vec::new();
-    if axes.kernels.contains(&Kernel::Whitted) {
-        bases.extend(
-            [Precision::F32, Precision::F64].map(|precision| Setting { precision: Some(precision), ..BASELINE }),
-        );
-    }
-    if axes.kernels.contains(&Kernel::Plain) {
-        bases.push(Setting { kernel: Kernel::Plain, ..BASELINE });
-    }
+/// Every algorithm that can leave something out, in each precision: exactly; with each allowed error; with each number of
+/// generations; without boxes. In the first of its precisions with each number of samples and at each scale, if it has
+/// those. What can leave out nothing only exactly.
+fn candidates(scene: &Scene, axes: &Axes) -> Vec<RenderSettings> {
+    let mut rows: Vec<&Description> =
+        ALGORITHMS.iter().filter(|row| row.is_on_device() && axes.algorithms.contains(&row.algorithm)).collect();
+    rows.sort_by_key(|row| !row.is_accurate);
+    let (approximating, others): (Vec<_>, Vec<_>) = rows.into_iter().partition(|row| row.approximates);
+    let of = |row: &Description, precision| RenderSettings { algorithm: row.algorithm, precision, ..BASELINE };
+    let in_each =
+        |row: &&Description| row.precisions.iter().map(|&precision| of(row, Some(precision))).collect::<Vec<_>>();
+    let bases: Vec<_> = approximating.iter().flat_map(in_each).collect();
     let mut settings = bases.clone();
     for &base in &bases {
-        settings.extend(axes.errors.iter().map(|&error| Setting { error, ..base }));
+        settings.extend(axes.errors.iter().map(|&error| RenderSettings { error, ..base }));
         let fewer = axes.generations.iter().filter(|&&generations| generations < scene.max_depth);
-        settings.extend(fewer.map(|&generations| Setting { max_depth: Some(generations), ..base }));
-        settings.push(Setting { boxes: false, ..base });
+        settings.extend(fewer.map(|&generations| RenderSettings { max_depth: Some(generations), ..base }));
+        settings.push(RenderSettings { boxes: false, ..base });
     }
-    if axes.kernels.contains(&Kernel::Whitted) {
-        settings.extend(axes.samples.iter().map(|&samples| Setting { samples, ..BASELINE }));
-        settings.extend(axes.scales.iter().map(|&scale| Setting { scale, ..BASELINE }));
+    for row in approximating.iter().filter(|row| row.samples) {
+        let base = of(row, Some(row.precisions[0]));
+        settings.extend(axes.samples.iter().map(|&samples| RenderSettings { samples, ..base }));
+        settings.extend(axes.scales.iter().map(|&scale| RenderSettings { scale, ..base }));
     }
-    if axes.kernels.contains(&Kernel::Course) {
-        settings.push(Setting { kernel: Kernel::Course, precision: None, ..BASELINE });
-    }
+    settings.extend(others.into_iter().map(|row| of(row, None)));
     settings
 }
 
@@ -159,8 +158,11 @@ mod tests {
             assert!(planned[..place].iter().all(|earlier| earlier.settings != one.settings), "{}", one.setting);
             one.setting.check().unwrap();
         }
-        let has = |wanted: fn(&Setting) -> bool| planned.iter().any(|planned| wanted(&planned.setting));
-        assert!(has(|setting| setting.kernel == Kernel::Course) && has(|setting| setting.kernel == Kernel::Plain));
+        let has = |wanted: fn(&RenderSettings) -> bool| planned.iter().any(|planned| wanted(&planned.setting));
+        assert!(
+            has(|setting| setting.algorithm == Algorithm::Course)
+                && has(|setting| setting.algorithm == Algorithm::Plain)
+        );
         assert!(has(|setting| setting.precision == Some(Precision::F64) && setting.error > 0.0));
         assert!(has(|setting| setting.max_depth == Some(2)) && has(|setting| !setting.boxes));
         assert!(has(|setting| setting.scale == 0.5) && !has(|setting| setting.samples > 1));
@@ -181,8 +183,8 @@ mod tests {
     #[test]
     fn only_bounds_on_what_is_left_out_of_the_accurate_kernel_are_proven() {
         for planned in sweep("corridor", &full(), &LIMITS).planned() {
-            let Setting { kernel, max_depth, error, scale, .. } = planned.setting;
-            let is_provable = kernel == Kernel::Whitted && max_depth.is_none() && scale == 1.0;
+            let RenderSettings { algorithm, max_depth, error, scale, .. } = planned.setting;
+            let is_provable = algorithm == Algorithm::Whitted && max_depth.is_none() && scale == 1.0;
             assert_eq!(planned.bound.is_some(), is_provable, "{}", planned.setting);
             assert!(planned.bound.unwrap_or(0.0) <= error);
         }

@@ -10,7 +10,7 @@ use super::super::state::Message;
 use super::{Reference, Screenshot, Session};
 use crate::plan::{Limits, PlanError};
 use crate::scene::Scene;
-use crate::setting::Setting;
+use crate::settings::RenderSettings;
 use crate::tracer::{self, Canvas, TracerError, Work, limits_of};
 
 impl Session {
@@ -74,7 +74,7 @@ impl Session {
             // What may be left out is another thing for every scene.
             Kernel::BySetting(setting) => {
                 // With the precision chosen already, no pixels are tried for it.
-                let setting = Setting { precision: chosen.or(setting.precision), ..setting };
+                let setting = RenderSettings { precision: chosen.or(setting.precision), ..setting };
                 let drawing = setting.drawing(scene, limits, size[0], size[1]);
                 let settings = drawing.map_err(|error| TracerError::Refused(error.to_string()))?.settings;
                 (settings.kernel, Work::of(&settings))

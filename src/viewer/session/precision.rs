@@ -4,7 +4,7 @@ use super::super::action::Kernel;
 use super::Session;
 use crate::plan::{Limits, Plan, PlanError, Precision, Wishes};
 use crate::scene::Scene;
-use crate::setting::{self, Setting};
+use crate::settings::RenderSettings;
 
 /// The plan's answer for a scene at a size.
 pub(super) struct Chosen {
@@ -30,7 +30,9 @@ impl Asked {
     fn by(kernel: Kernel) -> Option<Self> {
         match kernel {
             Kernel::Accurate(precision) => Some(Self { precision, max_depth: None, error: 0.0 }),
-            Kernel::BySetting(Setting { kernel: setting::Kernel::Whitted, precision, max_depth, error, .. }) => {
+            Kernel::BySetting(RenderSettings { algorithm, precision, max_depth, error, .. })
+                if algorithm.description().has_precisions() =>
+            {
                 Some(Self { precision, max_depth, error })
             }
             Kernel::BySetting(_) | Kernel::Course | Kernel::Reference => None,

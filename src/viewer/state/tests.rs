@@ -124,7 +124,7 @@ fn a_kernel_and_samples_that_are_chosen_are_those_of_the_next_run() {
 fn what_a_run_is_asked_to_begin_with_is_not_remembered_until_it_is_chosen() {
     let course = || start().drawn_by(Some(Kernel::Course), None);
     assert_eq!((course().kernel, course().preferences.kernel), (Kernel::Course, UsualKernel::Whitted));
-    let setting = Setting::default();
+    let setting = RenderSettings::default();
     let mut state = start().drawn_by(Some(Kernel::Course), Some(setting));
     assert_eq!(state.kernel, Kernel::BySetting(setting), "the file goes before the scene");
     state.apply(Action::SetKernel(Kernel::Reference));

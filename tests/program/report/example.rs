@@ -3,14 +3,14 @@
 use std::ops::ControlFlow;
 use std::time::Duration;
 
+use zerkalo::algorithm::Algorithm;
 use zerkalo::gpu::{Check, Layer, Messages, SetUpBy, Severity, Validation, tried_devices};
-use zerkalo::measure::fps_table::{Cell, FpsTable, Kernel, Plan};
+use zerkalo::measure::fps_table::{Cell, FpsTable, Plan};
 use zerkalo::measure::stability::Row;
 use zerkalo::measure::trade::{Axes, Conditions, Counted, Question, SceneTrade, Sweep, Target, Trade, measure, truth};
 use zerkalo::measure::{Budget, Machine, scene_maps};
 use zerkalo::report::{Ending, NamedMaps, Report, Section, Stability};
 use zerkalo::scene::gallery;
-use zerkalo::setting;
 use zerkalo::tracer::limits_of;
 use zerkalo::validation::{Group, Outcome, Pass, Remarked, Switch, TriedCheck};
 
@@ -112,13 +112,14 @@ fn fps(machine: &Machine) -> FpsTable {
     let plan = Plan { counts: vec![10, 50, 100], ..Plan::of_course() };
     let mut table = FpsTable::new(machine.clone(), plan);
     for (kind, count) in table.missing() {
-        for kernel in Kernel::ALL {
-            let time_ns = (count as u64 + kind as u64) * 1_000_000 / (1 + kernel as u64);
+        for algorithm in Algorithm::in_fps_table() {
+            let times = if algorithm == Algorithm::Course { 1 } else { 2 };
+            let time_ns = (count as u64 + kind as u64) * 1_000_000 / times;
             let samples_ns = [0, 1, 2].map(|more| time_ns + more * 50_000).to_vec();
             table.cells.push(Cell {
                 kind,
                 count,
-                kernel,
+                algorithm,
                 gpu_samples_ns: Some(samples_ns.clone()),
                 wall_samples_ns: samples_ns,
             });
@@ -130,7 +131,7 @@ fn fps(machine: &Machine) -> FpsTable {
 fn trade(device: &TestDevice, machine: &Machine) -> Trade {
     let scene = gallery::scene("start").unwrap();
     let axes = Axes {
-        kernels: vec![setting::Kernel::Plain, setting::Kernel::Course],
+        algorithms: vec![Algorithm::Plain, Algorithm::Course],
         errors: vec![0.1],
         generations: vec![1],
         samples: Vec::new(),

@@ -107,11 +107,11 @@ impl Desk {
     /// until it is told otherwise: by the accurate kernel, with 16 samples a pixel.
     #[track_caller]
     pub fn render(&self, scene: &str, size: [u32; 2]) -> Frame {
-        self.render_with(&["--kernel", "whitted", "--precision", "f32", "--samples", "16"], scene, size)
+        self.render_with(&["--algorithm", "whitted", "--precision", "f32", "--samples", "16"], scene, size)
     }
 
     pub fn render_by(&self, kernel: &str, scene: &str, size: [u32; 2]) -> Frame {
-        self.render_with(&["--kernel", kernel], scene, size)
+        self.render_with(&["--algorithm", kernel], scene, size)
     }
 
     pub fn render_with(&self, arguments: &[&str], scene: &str, [width, height]: [u32; 2]) -> Frame {

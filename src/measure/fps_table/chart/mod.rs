@@ -36,7 +36,7 @@ struct TableChart<'a>(&'a FpsTable);
 impl Chart for TableChart<'_> {
     /// Two rows of panels.
     fn size(&self) -> [i32; 2] {
-        let panels = 1 + self.0.plan.kernels.len() as i32;
+        let panels = 1 + self.0.plan.algorithms.len() as i32;
         [PANEL[0] * panels + 2 * MARGIN, HEAD_HEIGHT + 2 * PANEL[1] + LEGEND_HEIGHT]
     }
 
@@ -129,13 +129,12 @@ fn draw_lines<DB: DrawingBackend>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::fps_table::Kernel;
-    use crate::measure::fps_table::tests::example;
+    use crate::measure::fps_table::tests::{BOTH, example};
     use crate::scene::SolidKind;
 
     #[test]
     fn both_forms_show_every_line_and_a_table_of_nothing_can_be_drawn_too() {
-        let mut table = example(&[10, 50, 100], &Kernel::ALL);
+        let mut table = example(&[10, 50, 100], &BOTH);
         for _ in 0..2 {
             let frame = png(&table).unwrap();
             assert_eq!([frame.width(), frame.height()].map(|side| side as i32), TableChart(&table).size());

@@ -1,6 +1,6 @@
 //! What the chart shows, before it is drawn.
 
-use crate::measure::fps_table::{Cell, Clock, FpsTable, Kernel, Speeds, frames_per_second, published};
+use crate::measure::fps_table::{Algorithm, Cell, Clock, FpsTable, Speeds, frames_per_second, published};
 use crate::scene::SolidKind;
 
 /// A point of a line, frames a second in the panel's parts.
@@ -47,17 +47,17 @@ pub(super) fn rows(table: &FpsTable) -> [Row; 2] {
         Clock::Wall if table.plan.in_window => "in the window",
         Clock::Wall => "wall time",
     };
-    let measured = |&kernel: &Kernel| Subject {
-        name: format!("{} kernel, {by}", kernel.name()),
-        speeds: table.speeds(kernel, clock),
+    let measured = |&algorithm: &Algorithm| Subject {
+        name: format!("{} kernel, {by}", algorithm.name()),
+        speeds: table.speeds(algorithm, clock),
         quartiles: Box::new(move |kind, count| {
             let quartiles = |cell: &Cell| Some(cell.summary(clock)?.quartiles_ns.map(frames_per_second));
-            table.cell(kind, count, kernel).and_then(quartiles)
+            table.cell(kind, count, algorithm).and_then(quartiles)
         }),
     };
     let published =
         Subject { name: "course work, published".to_owned(), speeds: published(), quartiles: Box::new(|_, _| None) };
-    let subjects: Vec<_> = [published].into_iter().chain(table.plan.kernels.iter().map(measured)).collect();
+    let subjects: Vec<_> = [published].into_iter().chain(table.plan.algorithms.iter().map(measured)).collect();
     [
         Row {
             label: "FPS, the fastest = 1 · кадры/с",
@@ -107,11 +107,11 @@ fn three_digits(fps: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::fps_table::tests::example;
+    use crate::measure::fps_table::tests::{BOTH, example};
 
     #[test]
     fn above_is_1_the_fastest_cell_and_below_the_spheres() {
-        let [above, below] = rows(&example(&[10, 100], &Kernel::ALL));
+        let [above, below] = rows(&example(&[10, 100], &BOTH));
         let titles = |row: &Row| row.panels.iter().map(|panel| panel.title.clone()).collect::<Vec<_>>();
         assert_eq!(
             titles(&above),
@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn without_spheres_nothing_is_in_parts_of_them() {
-        let mut table = example(&[10], &[Kernel::Course]);
+        let mut table = example(&[10], &[Algorithm::Course]);
         table.cells.remove(0);
         let [above, below] = rows(&table);
         assert_eq!((above.panels[1].points().count(), below.panels[1].points().count()), (3, 0));

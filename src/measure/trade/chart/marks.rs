@@ -3,9 +3,9 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
+use crate::algorithm::{Algorithm, Precision};
 use crate::measure::output::drawing::Drawn;
-use crate::plan::Precision;
-use crate::setting::{Kernel, Setting};
+use crate::settings::RenderSettings;
 
 /// Settings that look alike.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -30,15 +30,15 @@ impl Group {
         Self::Scaled,
     ];
 
-    pub fn of(setting: &Setting) -> Self {
-        match (setting.boxes, setting.kernel, setting.precision) {
+    pub fn of(setting: &RenderSettings) -> Self {
+        match (setting.boxes, setting.algorithm, setting.precision) {
             (false, _, _) => Self::WithoutBoxes,
             _ if setting.samples > 1 => Self::Sampled,
             _ if setting.scale < 1.0 => Self::Scaled,
-            (_, Kernel::Course, _) => Self::Course,
-            (_, Kernel::Plain, _) => Self::Plain,
-            (_, Kernel::Whitted, Some(Precision::F64)) => Self::WhittedF64,
-            (_, Kernel::Whitted, _) => Self::WhittedF32,
+            (_, Algorithm::Course, _) => Self::Course,
+            (_, Algorithm::Plain, _) => Self::Plain,
+            (_, Algorithm::Whitted | Algorithm::Reference, Some(Precision::F64)) => Self::WhittedF64,
+            (_, Algorithm::Whitted | Algorithm::Reference, _) => Self::WhittedF32,
         }
     }
 

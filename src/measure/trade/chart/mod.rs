@@ -13,7 +13,7 @@ use super::{Counted, Question, SceneTrade, Target, Trade};
 use crate::frame::Frame;
 use crate::measure::output::OutputError;
 use crate::measure::output::drawing::{self, Chart, Drawn, FONT, draw_text};
-use crate::setting::three_digits;
+use crate::settings::three_digits;
 use axis::LogAxis;
 use marks::{Group, draw_marker, draw_ring};
 

@@ -8,13 +8,13 @@ use serde::Deserialize;
 use thiserror::Error;
 use toml::Spanned;
 
-use super::{Kernel, Setting};
-use crate::plan::Precision;
+use super::RenderSettings;
+use crate::algorithm::{Algorithm, Precision};
 use crate::whole_file::WholeFile;
 
 /// Why a setting could not be read or written; each message is one line.
 #[derive(Debug, Error)]
-pub enum SettingError {
+pub enum SettingsError {
     #[error("{}:{line}: {what}", path.display())]
     Invalid { path: PathBuf, line: usize, what: String },
     #[error("could not read setting {path:?}: {reason}")]
@@ -23,7 +23,7 @@ pub enum SettingError {
     Write { path: PathBuf, reason: String },
 }
 
-impl SettingError {
+impl SettingsError {
     /// Whether what the caller named is at fault, not the machine.
     pub fn is_input_error(&self) -> bool {
         match self {
@@ -33,11 +33,12 @@ impl SettingError {
     }
 }
 
-/// What a file may say; the rest is as in [`Setting::default`].
+/// What a file may say; the rest is as in [`RenderSettings::default`].
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Fields {
-    kernel: Option<Spanned<Kernel>>,
+    #[serde(alias = "kernel")]
+    algorithm: Option<Spanned<Algorithm>>,
     precision: Option<Spanned<Precision>>,
     error: Option<Spanned<f64>>,
     max_depth: Option<Spanned<u32>>,
@@ -49,18 +50,18 @@ struct Fields {
 /// Largest file, bytes: a setting takes a tenth of one thousand.
 const LARGEST_BYTES: u64 = 1 << 16;
 
-impl Setting {
+impl RenderSettings {
     /// # Errors
     /// The file cannot be read, or is no setting.
-    pub fn load(path: &Path) -> Result<Self, SettingError> {
-        let unreadable = |reason: String| SettingError::Read { path: path.to_owned(), reason };
+    pub fn load(path: &Path) -> Result<Self, SettingsError> {
+        let unreadable = |reason: String| SettingsError::Read { path: path.to_owned(), reason };
         let metadata = fs::metadata(path).map_err(|error| unreadable(error.to_string()))?;
         // A pipe could keep the reader waiting.
         if !metadata.is_file() || metadata.len() > LARGEST_BYTES {
             return Err(unreadable(format!("it is not a file of at most {LARGEST_BYTES} bytes")));
         }
         let source = fs::read_to_string(path).map_err(|error| unreadable(error.to_string()))?;
-        Self::from_toml(&source).map_err(|(line, what)| SettingError::Invalid { path: path.to_owned(), line, what })
+        Self::from_toml(&source).map_err(|(line, what)| SettingsError::Invalid { path: path.to_owned(), line, what })
     }
 
     /// With the line at fault, from 1, and what is wrong there.
@@ -70,7 +71,7 @@ impl Setting {
             let offset = error.span().map_or(0, |span| span.start);
             (line(offset), in_one_line(source, &error, offset))
         })?;
-        let Fields { kernel, precision, error, max_depth, boxes, samples, scale } = fields;
+        let Fields { algorithm, precision, error, max_depth, boxes, samples, scale } = fields;
         let places = [
             ("precision", precision.as_ref().map(Spanned::span)),
             ("error", error.as_ref().map(Spanned::span)),
@@ -80,8 +81,16 @@ impl Setting {
             ("scale", scale.as_ref().map(Spanned::span)),
         ];
         let default = Self::default();
+        let on_cpu = algorithm.as_ref().filter(|algorithm| !algorithm.get_ref().description().is_on_device());
+        if let Some(algorithm) = on_cpu {
+            let what = "such a file is for what draws on a Vulkan device";
+            return Err((
+                line(algorithm.span().start),
+                format!("algorithm = {:?}: {what}", algorithm.get_ref().name()),
+            ));
+        }
         let setting = Self {
-            kernel: kernel.map_or(default.kernel, Spanned::into_inner),
+            algorithm: algorithm.map_or(default.algorithm, Spanned::into_inner),
             precision: precision.map_or(default.precision, |precision| Some(precision.into_inner())),
             error: error.map_or(default.error, Spanned::into_inner),
             max_depth: max_depth.map_or(default.max_depth, |depth| Some(depth.into_inner())),
@@ -98,7 +107,7 @@ impl Setting {
     }
 
     /// Writes the file, whole or not at all, below `comment`, which tells where the setting comes from.
-    pub fn save(&self, path: &Path, comment: &str) -> Result<(), SettingError> {
+    pub fn save(&self, path: &Path, comment: &str) -> Result<(), SettingsError> {
         let write = || -> io::Result<()> {
             let text = toml::to_string(self).map_err(io::Error::other)?;
             let comment: String = comment.lines().map(|line| format!("# {line}\n")).collect();
@@ -106,12 +115,12 @@ impl Setting {
             file.as_file_mut().write_all((comment + &text).as_bytes())?;
             file.finish()
         };
-        write().map_err(|error| SettingError::Write { path: path.to_owned(), reason: error.to_string() })
+        write().map_err(|error| SettingsError::Write { path: path.to_owned(), reason: error.to_string() })
     }
 
-    /// Refuses at once what [`Setting::save`] would refuse after a long measuring. Leaves nothing behind.
-    pub fn check_output_path(path: &Path) -> Result<(), SettingError> {
-        let failed = |error: io::Error| SettingError::Write { path: path.to_owned(), reason: error.to_string() };
+    /// Refuses at once what [`RenderSettings::save`] would refuse after a long measuring. Leaves nothing behind.
+    pub fn check_output_path(path: &Path) -> Result<(), SettingsError> {
+        let failed = |error: io::Error| SettingsError::Write { path: path.to_owned(), reason: error.to_string() };
         WholeFile::create(path).map(drop).map_err(failed)
     }
 }
@@ -134,8 +143,8 @@ mod tests {
     fn a_setting_is_read_as_it_was_written() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("fast.toml");
-        let cut = Setting {
-            kernel: Kernel::Whitted,
+        let cut = RenderSettings {
+            algorithm: Algorithm::Whitted,
             precision: Some(Precision::F64),
             error: 1.0 / 510.0,
             max_depth: Some(3),
@@ -143,12 +152,17 @@ mod tests {
             samples: 4,
             scale: 0.5,
         };
-        for setting in [cut, Setting::default(), Setting { kernel: Kernel::Course, ..Setting::default() }] {
+        for setting in [
+            cut,
+            RenderSettings::default(),
+            RenderSettings { algorithm: Algorithm::Course, ..RenderSettings::default() },
+        ] {
             setting.save(&path, "two\nlines").unwrap();
-            assert_eq!(Setting::load(&path).unwrap(), setting);
+            assert_eq!(RenderSettings::load(&path).unwrap(), setting);
             assert!(fs::read_to_string(&path).unwrap().starts_with("# two\n# lines\nkernel = "));
         }
-        assert_eq!(Setting::from_toml(""), Ok(Setting::default()));
+        assert_eq!(RenderSettings::from_toml(""), Ok(RenderSettings::default()));
+        assert_eq!(RenderSettings::from_toml("algorithm = \"plain\""), RenderSettings::from_toml("kernel = \"plain\""));
     }
 
     #[test]
@@ -156,20 +170,21 @@ mod tests {
         for (source, line, part) in [
             ("kernel = \"whitted\"\ngenerations = 3", 2, "unknown field `generations`"),
             ("\nkernel = \"fast\"", 2, "kernel: unknown variant `fast`"),
+            ("error = 0\nalgorithm = \"reference\"", 2, "draws on a Vulkan device"),
             ("precision = \"f16\"", 1, "precision: unknown variant `f16`"),
             ("\n\nmax_depth = -1", 3, "max_depth: "),
             ("max_depth = \"two\"", 1, "max_depth: "),
             ("max_depth = 0", 1, "max_depth = 0"),
-            ("kernel = \"course\"\nerror = 0.1", 2, "the course kernel leaves out nothing"),
-            ("precision = \"f64\"\nkernel = \"plain\"", 1, "the plain kernel calculates in f32 only"),
+            ("kernel = \"course\"\nerror = 0.1", 2, "the course algorithm leaves out nothing"),
+            ("precision = \"f64\"\nkernel = \"plain\"", 1, "the plain algorithm calculates in f32 only; whitted can in f64"),
             ("error = nan", 1, "error = NaN"),
             ("error = 1\nerror = 2", 2, "duplicate key"),
             ("boxes = 1", 1, "boxes: "),
             ("error = 0.1\nsamples = 65", 2, "1 to 64 samples, not 65"),
-            ("scale = 0.5\nkernel = \"plain\"", 1, "scale is for the whitted kernel"),
+            ("scale = 0.5\nkernel = \"plain\"", 1, "scale is for the whitted algorithm"),
             ("kernel", 1, ""),
         ] {
-            let (found, what) = Setting::from_toml(source).unwrap_err();
+            let (found, what) = RenderSettings::from_toml(source).unwrap_err();
             assert!(found == line && what.contains(part) && !what.contains('\n'), "{source:?}: {found}: {what}");
         }
     }
@@ -178,11 +193,11 @@ mod tests {
     fn what_is_no_file_of_text_is_refused() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("setting.toml");
-        assert!(Setting::load(&path).is_err_and(|error| error.is_input_error()));
-        assert!(Setting::load(folder.path()).is_err_and(|error| error.is_input_error()));
+        assert!(RenderSettings::load(&path).is_err_and(|error| error.is_input_error()));
+        assert!(RenderSettings::load(folder.path()).is_err_and(|error| error.is_input_error()));
         fs::write(&path, [0xff, 0xfe]).unwrap();
-        assert!(Setting::load(&path).is_err_and(|error| error.is_input_error()));
+        assert!(RenderSettings::load(&path).is_err_and(|error| error.is_input_error()));
         let nowhere = folder.path().join("nowhere/setting.toml");
-        assert!(Setting::check_output_path(&nowhere).is_err_and(|error| !error.is_input_error()));
+        assert!(RenderSettings::check_output_path(&nowhere).is_err_and(|error| !error.is_input_error()));
     }
 }

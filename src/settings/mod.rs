@@ -4,45 +4,22 @@ mod file;
 
 use std::fmt;
 
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-pub use file::SettingError;
+pub use file::SettingsError;
 
-use crate::plan::{Limits, Plan, PlanError, Precision, Structure, Wishes};
+use crate::algorithm::{Algorithm, Description, Precision};
+use crate::plan::{Limits, Plan, PlanError, Structure, Wishes};
 use crate::scene::{DEPTH_LIMIT, Scene};
+use crate::tracer::Settings;
 use crate::tracer::sampling::Sampling;
-use crate::tracer::{self, Settings};
-
-/// Which of the device's kernels draws.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Kernel {
-    /// The course work's.
-    Course,
-    /// The accurate model without exact sums: textbook quadratics in `f32`.
-    Plain,
-    /// The accurate model.
-    #[default]
-    Whitted,
-}
-
-impl Kernel {
-    pub const ALL: [Self; 3] = [Self::Course, Self::Plain, Self::Whitted];
-
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Course => "course",
-            Self::Plain => "plain",
-            Self::Whitted => "whitted",
-        }
-    }
-}
 
 /// How a picture is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Setting {
-    pub kernel: Kernel,
-    /// `None`: as the plan chooses. Only the whitted kernel has a choice.
+pub struct RenderSettings {
+    #[serde(rename = "kernel")]
+    pub algorithm: Algorithm,
+    /// `None`: as the plan chooses, where the algorithm has a choice.
     pub precision: Option<Precision>,
     /// Largest change of any linear channel by what the plan may leave out; 0: it leaves out nothing.
     pub error: f64,
@@ -50,17 +27,17 @@ pub struct Setting {
     pub max_depth: Option<u32>,
     /// Whether rays find solids by boxes around them, or look at each.
     pub boxes: bool,
-    /// Of a pixel; of the whitted kernel, as the scale. See [`sampling`](crate::tracer::sampling).
+    /// Of a pixel. See [`sampling`](crate::tracer::sampling).
     pub samples: u32,
     /// Size of the traced picture against the one asked for.
     pub scale: f64,
 }
 
-impl Default for Setting {
+impl Default for RenderSettings {
     /// The accurate kernel, leaving out nothing.
     fn default() -> Self {
         Self {
-            kernel: Kernel::Whitted,
+            algorithm: Algorithm::Whitted,
             precision: None,
             error: 0.0,
             max_depth: None,
@@ -75,7 +52,7 @@ impl Default for Setting {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawing {
     pub settings: Settings,
-    /// No linear channel is changed more by what was left out for [`Setting::error`]: proven, rounding not in it.
+    /// No linear channel is changed more by what was left out for [`RenderSettings::error`]: proven, rounding not in it.
     pub error_bound: f64,
 }
 
@@ -86,7 +63,7 @@ pub struct Contradiction {
     pub what: String,
 }
 
-impl Setting {
+impl RenderSettings {
     /// What it comes to for a scene that [is valid](Scene::validate).
     ///
     /// # Errors
@@ -95,7 +72,7 @@ impl Setting {
         Ok(self.drawn_by(self.plan(scene, limits, width, height)?.as_ref(), width, height))
     }
 
-    /// As [`Setting::drawing`], with what is to be told of the picture, see [`Plan::warning`].
+    /// As [`RenderSettings::drawing`], with what is to be told of the picture, see [`Plan::warning`].
     ///
     /// # Errors
     /// The setting is impossible, or not for this device.
@@ -107,8 +84,8 @@ impl Setting {
         height: u32,
     ) -> Result<(Drawing, Option<String>), PlanError> {
         let mut plan = self.plan(scene, limits, width, height)?;
-        // The plain kernel is there to show what rounding does.
-        if self.kernel == Kernel::Whitted {
+        // Others are there to show what rounding does.
+        if self.algorithm.description().is_accurate {
             plan = plan.map(|plan| plan.with_f32_tried(scene, &self.wishes(width, height)));
         }
         let warning = plan.as_ref().and_then(Plan::warning);
@@ -116,38 +93,40 @@ impl Setting {
     }
 
     fn wishes(&self, width: u32, height: u32) -> Wishes {
-        let &Self { kernel, precision, max_depth, error, .. } = self;
-        let precision = if kernel == Kernel::Plain { Some(Precision::F32) } else { precision };
+        let &Self { algorithm, precision, max_depth, error, .. } = self;
+        let precision = match *algorithm.description().precisions {
+            [only] => Some(only),
+            _ => precision,
+        };
         Wishes { precision, max_depth, error, width, height }
     }
 
-    /// None for the course's kernel, which is always the same.
+    /// None for an algorithm that leaves out nothing: it is always the same.
     fn plan(&self, scene: &Scene, limits: &Limits, width: u32, height: u32) -> Result<Option<Plan>, PlanError> {
-        if self.kernel == Kernel::Course {
+        if !self.algorithm.description().approximates {
             return Ok(None);
         }
         Plan::for_scene(scene, &self.wishes(width, height), limits).map(Some)
     }
 
     fn drawn_by(&self, plan: Option<&Plan>, width: u32, height: u32) -> Drawing {
-        let &Self { kernel, max_depth, boxes, samples, scale, .. } = self;
+        let &Self { algorithm, max_depth, boxes, samples, scale, .. } = self;
         let Some(plan) = plan else {
             return Drawing { settings: Settings { max_depth, ..Settings::new(width, height) }, error_bound: 0.0 };
         };
         let has_boxes = plan.structures.choice.iter().any(|structure| *structure != Structure::None);
         let without_boxes = has_boxes && !boxes;
-        let mut settings = Settings { without_boxes, samples, scale, ..Settings::planned(plan, width, height) };
-        if kernel == Kernel::Plain {
-            settings.kernel = tracer::Kernel::Plain;
-        }
+        let planned = Settings::planned(plan, width, height);
+        let kernel = algorithm.kernel(plan.precision.choice).unwrap_or(planned.kernel);
+        let settings = Settings { kernel, without_boxes, samples, scale, ..planned };
         Drawing { settings, error_bound: plan.bounds.total() }
     }
 
     /// # Errors
     /// What no kernel can do.
     pub fn check(&self) -> Result<(), Contradiction> {
-        let &Self { kernel, precision, error, max_depth, boxes, samples, scale } = self;
-        let name = kernel.name();
+        let &Self { algorithm, precision, error, max_depth, boxes, samples, scale } = self;
+        let &Description { name, precisions, .. } = algorithm.description();
         let refuse = |field, what: String| Err(Contradiction { field, what });
         if !(error.is_finite() && error >= 0.0) {
             return refuse("error", format!("error = {error}: it must be a number, 0 or greater"));
@@ -155,20 +134,21 @@ impl Setting {
         if let Some(depth) = max_depth.filter(|depth| !(1..=DEPTH_LIMIT).contains(depth)) {
             return refuse("max_depth", format!("max_depth = {depth}: there must be 1 to {DEPTH_LIMIT} generations"));
         }
-        if kernel != Kernel::Whitted && precision == Some(Precision::F64) {
+        if let Some(precision) = precision.filter(|precision| !precisions.contains(precision)) {
+            let own: Vec<_> = precisions.iter().map(|precision| precision.name()).collect();
+            let others = Algorithm::names(|other| other.has_precisions() && other.precisions.contains(&precision));
+            let own = own.join(" and ");
             return refuse(
                 "precision",
-                format!("the {name} kernel calculates in f32 only; the whitted kernel has f64"),
+                format!("the {name} algorithm calculates in {own} only; {others} can in {}", precision.name()),
             );
         }
-        if kernel == Kernel::Course && error > 0.0 {
-            return refuse(
-                "error",
-                "the course kernel leaves out nothing: an error is for the plain and the whitted one".to_owned(),
-            );
+        if error > 0.0 && !algorithm.description().approximates {
+            let others = Algorithm::names(|other| other.approximates);
+            return refuse("error", format!("the {name} algorithm leaves out nothing: an error is for {others}"));
         }
-        if kernel == Kernel::Course && !boxes {
-            return refuse("boxes", "the course kernel has no boxes to go without".to_owned());
+        if !boxes && !algorithm.description().has_hierarchy {
+            return refuse("boxes", format!("the {name} algorithm has no boxes to go without"));
         }
         // One after the other, so that the field at fault is known.
         let plain = Sampling::PLAIN;
@@ -176,20 +156,21 @@ impl Setting {
             if let Err(error) = sampling.check() {
                 return refuse(field, error.to_string());
             }
-            if kernel != Kernel::Whitted && sampling != plain {
-                return refuse(field, format!("{field} is for the whitted kernel, not the {name} one"));
+            if sampling != plain && !algorithm.description().samples {
+                let others = Algorithm::names(|other| other.samples);
+                return refuse(field, format!("{field} is for the {others} algorithm, not for {name}"));
             }
         }
         Ok(())
     }
 }
 
-impl fmt::Display for Setting {
+impl fmt::Display for RenderSettings {
     /// What differs from an exact picture by default, in a few words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let &Self { kernel, precision, error, max_depth, boxes, samples, scale } = self;
-        write!(f, "{}", kernel.name())?;
-        if let Some(precision) = precision.filter(|_| kernel == Kernel::Whitted) {
+        let &Self { algorithm, precision, error, max_depth, boxes, samples, scale } = self;
+        write!(f, "{}", algorithm.name())?;
+        if let Some(precision) = precision.filter(|_| algorithm.description().has_precisions()) {
             write!(f, " {}", precision.name())?;
         }
         if error > 0.0 {
@@ -226,9 +207,10 @@ pub fn three_digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::algorithm::Kernel;
     use crate::scene::gallery;
 
-    fn drawing(setting: Setting) -> Drawing {
+    fn drawing(setting: RenderSettings) -> Drawing {
         let scene = gallery::scene("corridor").unwrap();
         let limits = Limits { float64: true, ..Limits::PROMISED };
         setting.check().unwrap();
@@ -237,34 +219,40 @@ mod tests {
 
     #[test]
     fn every_kernel_is_planned_as_far_as_it_goes() {
-        let exact = drawing(Setting::default());
-        assert_eq!(exact.settings.kernel, tracer::Kernel::Whitted(Precision::F32));
+        let exact = drawing(RenderSettings::default());
+        assert_eq!(exact.settings.kernel, Kernel::Whitted(Precision::F32));
         assert_eq!(exact.error_bound, 0.0);
-        for kernel in [Kernel::Plain, Kernel::Whitted] {
-            let cut = drawing(Setting { kernel, precision: Some(Precision::F32), error: 0.01, ..Setting::default() });
+        for algorithm in [Algorithm::Plain, Algorithm::Whitted] {
+            let cut = drawing(RenderSettings {
+                algorithm,
+                precision: Some(Precision::F32),
+                error: 0.01,
+                ..RenderSettings::default()
+            });
             assert!(cut.error_bound > 0.0 && cut.error_bound <= 0.01);
             assert_ne!(cut.settings.approximations, exact.settings.approximations);
-            assert_eq!(cut.settings.kernel == tracer::Kernel::Plain, kernel == Kernel::Plain);
+            assert_eq!(cut.settings.kernel == Kernel::Plain, algorithm == Algorithm::Plain);
         }
-        let course = drawing(Setting { kernel: Kernel::Course, max_depth: Some(3), ..Setting::default() });
+        let course =
+            drawing(RenderSettings { algorithm: Algorithm::Course, max_depth: Some(3), ..RenderSettings::default() });
         assert_eq!(course.settings, Settings { max_depth: Some(3), ..Settings::new(64, 28) });
     }
 
     #[test]
     fn contradictions_name_their_field() {
-        let setting = Setting::default();
-        let course = Setting { kernel: Kernel::Course, ..setting };
+        let setting = RenderSettings::default();
+        let course = RenderSettings { algorithm: Algorithm::Course, ..setting };
         for (setting, field) in [
-            (Setting { error: f64::NAN, ..setting }, "error"),
-            (Setting { error: -1.0, ..setting }, "error"),
-            (Setting { max_depth: Some(0), ..setting }, "max_depth"),
-            (Setting { kernel: Kernel::Plain, precision: Some(Precision::F64), ..setting }, "precision"),
-            (Setting { error: 0.1, ..course }, "error"),
-            (Setting { boxes: false, ..course }, "boxes"),
-            (Setting { samples: 0, ..setting }, "samples"),
-            (Setting { samples: 4, ..course }, "samples"),
-            (Setting { scale: 0.1, ..setting }, "scale"),
-            (Setting { kernel: Kernel::Plain, scale: 0.5, ..setting }, "scale"),
+            (RenderSettings { error: f64::NAN, ..setting }, "error"),
+            (RenderSettings { error: -1.0, ..setting }, "error"),
+            (RenderSettings { max_depth: Some(0), ..setting }, "max_depth"),
+            (RenderSettings { algorithm: Algorithm::Plain, precision: Some(Precision::F64), ..setting }, "precision"),
+            (RenderSettings { error: 0.1, ..course }, "error"),
+            (RenderSettings { boxes: false, ..course }, "boxes"),
+            (RenderSettings { samples: 0, ..setting }, "samples"),
+            (RenderSettings { samples: 4, ..course }, "samples"),
+            (RenderSettings { scale: 0.1, ..setting }, "scale"),
+            (RenderSettings { algorithm: Algorithm::Plain, scale: 0.5, ..setting }, "scale"),
         ] {
             assert_eq!(setting.check().map_err(|contradiction| contradiction.field), Err(field), "{setting:?}");
         }
@@ -272,12 +260,15 @@ mod tests {
 
     #[test]
     fn a_setting_is_told_by_what_it_does_otherwise() {
-        let f32 = Setting { precision: Some(Precision::F32), ..Setting::default() };
+        let f32 = RenderSettings { precision: Some(Precision::F32), ..RenderSettings::default() };
         assert_eq!(f32.to_string(), "whitted f32");
-        let cut = Setting { error: 1.0 / 255.0, max_depth: Some(1), boxes: false, ..f32 };
+        let cut = RenderSettings { error: 1.0 / 255.0, max_depth: Some(1), boxes: false, ..f32 };
         assert_eq!(cut.to_string(), "whitted f32, error 0.00392, 1 generation, no boxes");
-        assert_eq!(Setting { samples: 4, scale: 0.5, ..f32 }.to_string(), "whitted f32, 4 samples, scale 0.5");
-        assert_eq!(Setting { kernel: Kernel::Plain, max_depth: Some(4), ..f32 }.to_string(), "plain, 4 generations");
+        assert_eq!(RenderSettings { samples: 4, scale: 0.5, ..f32 }.to_string(), "whitted f32, 4 samples, scale 0.5");
+        assert_eq!(
+            RenderSettings { algorithm: Algorithm::Plain, max_depth: Some(4), ..f32 }.to_string(),
+            "plain, 4 generations"
+        );
     }
 
     #[test]

@@ -1,0 +1,225 @@
+//! The algorithms: what each is called, where it runs, what it can calculate in and what it can leave out.
+//!
+//! The command line, the window, measurements, validation and reports read [`ALGORITHMS`]; a new algorithm is a row there,
+//! its GLSL in a folder of its own, and what a driver needs to record it (see docs/adding-an-algorithm.md).
+
+mod precision;
+
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
+use serde::{Deserialize, Serialize};
+
+pub use precision::Precision;
+
+/// By its name on the command line, in files and in JSON.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Algorithm {
+    Course,
+    Plain,
+    #[default]
+    Whitted,
+    Reference,
+}
+
+/// An algorithm in a precision, as a Vulkan device runs it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Kernel {
+    /// `f32`.
+    Course,
+    /// `f32`.
+    Plain,
+    Whitted(Precision),
+}
+
+/// A row of [`ALGORITHMS`].
+#[derive(Debug)]
+pub struct Description {
+    pub algorithm: Algorithm,
+    pub name: &'static str,
+    /// For `--help`.
+    pub about: &'static str,
+    /// What it can calculate in, the usual one first.
+    pub precisions: &'static [Precision],
+    /// What a Vulkan device runs, one for each precision; none where the CPU does the work.
+    pub kernels: &'static [Kernel],
+    /// How many lights a scene of its must have, where it is not free in that.
+    pub lights: Option<usize>,
+    /// Whether it can leave out what changes a picture by less than an allowed error.
+    pub approximates: bool,
+    /// Whether its rays find solids by boxes around them, and can do without.
+    pub has_hierarchy: bool,
+    /// Whether a pixel may have several samples, and a picture be upscaled from a smaller one.
+    pub samples: bool,
+    /// Whether its pictures are those of the accurate model, to the tolerances of its precision.
+    pub is_accurate: bool,
+    /// Whether table 4.1 of the course work is measured with it.
+    pub is_in_fps_table: bool,
+}
+
+/// Every algorithm, the course work's first.
+pub static ALGORITHMS: [Description; 4] = [
+    Description {
+        algorithm: Algorithm::Course,
+        name: "course",
+        about: "The course work's, quirks and all",
+        precisions: &[Precision::F32],
+        kernels: &[Kernel::Course],
+        lights: Some(1),
+        approximates: false,
+        has_hierarchy: false,
+        samples: false,
+        is_accurate: false,
+        is_in_fps_table: true,
+    },
+    Description {
+        algorithm: Algorithm::Plain,
+        name: "plain",
+        about: "The accurate model by textbook quadratics in f32: what accuracy costs and gains is measured against it",
+        precisions: &[Precision::F32],
+        kernels: &[Kernel::Plain],
+        lights: None,
+        approximates: true,
+        has_hierarchy: true,
+        samples: false,
+        is_accurate: false,
+        is_in_fps_table: false,
+    },
+    Description {
+        algorithm: Algorithm::Whitted,
+        name: "whitted",
+        about: "The accurate model",
+        precisions: &[Precision::F32, Precision::F64],
+        kernels: &[Kernel::Whitted(Precision::F32), Kernel::Whitted(Precision::F64)],
+        lights: None,
+        approximates: true,
+        has_hierarchy: true,
+        samples: true,
+        is_accurate: true,
+        is_in_fps_table: true,
+    },
+    Description {
+        algorithm: Algorithm::Reference,
+        name: "reference",
+        about: "The accurate model in f64 on the CPU, without Vulkan: the truth, slowly",
+        precisions: &[Precision::F64],
+        kernels: &[],
+        lights: None,
+        approximates: false,
+        has_hierarchy: false,
+        samples: false,
+        is_accurate: true,
+        is_in_fps_table: false,
+    },
+];
+
+impl Description {
+    pub fn is_on_device(&self) -> bool {
+        !self.kernels.is_empty()
+    }
+
+    /// Whether a precision can be asked for.
+    pub fn has_precisions(&self) -> bool {
+        self.precisions.len() > 1
+    }
+}
+
+impl Algorithm {
+    pub fn description(self) -> &'static Description {
+        // The rows are in the order of the names: `every_algorithm_has_its_row`.
+        &ALGORITHMS[self as usize]
+    }
+
+    pub fn name(self) -> &'static str {
+        self.description().name
+    }
+
+    /// `None` where it has no such precision, or runs on the CPU.
+    pub fn kernel(self, precision: Precision) -> Option<Kernel> {
+        self.description().kernels.iter().copied().find(|kernel| kernel.precision() == precision)
+    }
+
+    pub fn on_device() -> impl Iterator<Item = Self> {
+        ALGORITHMS.iter().filter(|description| description.is_on_device()).map(|description| description.algorithm)
+    }
+
+    pub fn in_fps_table() -> impl Iterator<Item = Self> {
+        ALGORITHMS.iter().filter(|description| description.is_in_fps_table).map(|description| description.algorithm)
+    }
+
+    /// The names of those that can do something, for messages: «plain and whitted».
+    pub fn names(can: impl Fn(&Description) -> bool) -> String {
+        let names: Vec<_> =
+            ALGORITHMS.iter().filter(|description| can(description)).map(|description| description.name).collect();
+        names.join(" and ")
+    }
+}
+
+impl ValueEnum for Algorithm {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self::Course, Self::Plain, Self::Whitted, Self::Reference]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let Description { name, about, .. } = self.description();
+        Some(PossibleValue::new(*name).help(*about))
+    }
+}
+
+impl Kernel {
+    /// The algorithm that it runs.
+    pub fn algorithm(self) -> Algorithm {
+        match self {
+            Self::Course => Algorithm::Course,
+            Self::Plain => Algorithm::Plain,
+            Self::Whitted(_) => Algorithm::Whitted,
+        }
+    }
+
+    /// What it calculates in.
+    pub fn precision(self) -> Precision {
+        match self {
+            Self::Course | Self::Plain => Precision::F32,
+            Self::Whitted(precision) => precision,
+        }
+    }
+
+    /// The algorithm's name and, where that has several, the precision's.
+    pub fn name(self) -> String {
+        let description = self.algorithm().description();
+        if description.has_precisions() {
+            format!("{} {}", description.name, self.precision().name())
+        } else {
+            description.name.to_owned()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_algorithm_has_its_row() {
+        for (algorithm, row) in Algorithm::value_variants().iter().zip(&ALGORITHMS) {
+            assert_eq!(*algorithm, row.algorithm);
+            assert_eq!(serde_json::to_value(algorithm).unwrap(), row.name);
+        }
+        assert_eq!(Algorithm::value_variants().len(), ALGORITHMS.len());
+    }
+
+    #[test]
+    fn kernels_are_of_the_row_s_algorithm_and_precisions() {
+        for row in &ALGORITHMS {
+            for kernel in row.kernels {
+                assert_eq!(kernel.algorithm(), row.algorithm);
+            }
+            if row.is_on_device() {
+                assert_eq!(row.kernels.iter().map(|kernel| kernel.precision()).collect::<Vec<_>>(), row.precisions);
+            }
+        }
+        assert_eq!(Kernel::Whitted(Precision::F64).name(), "whitted f64");
+        assert_eq!(Kernel::Plain.name(), "plain");
+        assert_eq!(Algorithm::names(|row| row.approximates), "plain and whitted");
+    }
+}
