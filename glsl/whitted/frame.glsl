@@ -5,7 +5,7 @@ struct WhittedPushConstants {
     uint tile_origin; // pixels, x | y << 16
     uint image_size;  // pixels, width | height << 16
     uint depth;       // generations to trace
-    uint light_count;
+    uint light_count;   // of lights that give any light; they come first
     float reach;      // half of the largest coordinate of a solid or of a ray's origin
     uint writes_remainder; // not 0: what the colour loses by rounding to float, instead of the colour
     float min_throughput;    // a path ends as soon as it weighs no more than that; below 1
@@ -14,6 +14,7 @@ struct WhittedPushConstants {
     uint samples_before;   // of each pixel, that the picture is the mean of
     float sample_weight;   // of this one in the mean: 1 / (samples_before + 1)
     uint tile_size;        // pixels, width | height << 16
+    uint light_sphere_count; // of all lights
 };
 layout(push_constant, std430) uniform Push { WhittedPushConstants pushed; };
 

@@ -26,7 +26,7 @@ bool may_meet_a_light_sphere(Ray ray, Light current_light) {
         iterations++;
         may_meet = may_meet || may_meet_light_sphere(ray, light_with_sphere(i, current_light));
         i++;
-        if (LIGHT_SPHERES == 1u || !(i < frame.light_count)) break;
+        if (LIGHT_SPHERES == 1u || !(i < frame.light_sphere_count)) break;
     }
     return may_meet;
 }
@@ -46,11 +46,11 @@ Real light_sphere_ahead(Ray ray, Light current_light, bool looks, out Real3 inte
         bool is_met = meet(sphere, ray, FREE, CURVED, light_sphere);
         // From within there is nothing to see of it, nor of one without a radius.
         bool is_there = sphere_light.sphere_radius > 0.0 && !light_sphere.inside;
-        bool is_seen = i < frame.light_count && is_met && is_there && light_sphere.t < t;
+        bool is_seen = i < frame.light_sphere_count && is_met && is_there && light_sphere.t < t;
         if (is_seen) intensity = sphere_light.intensity;
         t = is_seen ? light_sphere.t : t;
         i++;
-        if (LIGHT_SPHERES == 1u || !(i < frame.light_count && any_of_packet(looks))) break;
+        if (LIGHT_SPHERES == 1u || !(i < frame.light_sphere_count && any_of_packet(looks))) break;
     }
     return t;
 }

@@ -93,10 +93,10 @@ impl Transport {
         }
     }
 
-    /// How many lights can brighten any surface in any channel.
-    pub fn lights_that_matter(&self) -> usize {
+    /// Whether any light can brighten any surface in any channel.
+    pub fn has_light_that_matters(&self) -> bool {
         let received = self.most_received(true);
-        self.intensities.iter().filter(|&&intensity| received * intensity != DVec3::ZERO).count()
+        self.intensities.iter().any(|&intensity| received * intensity != DVec3::ZERO)
     }
 
     pub fn largest_specular(&self) -> f64 {

@@ -13,6 +13,7 @@
 mod arrays;
 mod budget;
 mod ceiling;
+mod features;
 mod light_spheres;
 mod precision;
 mod reason;
@@ -24,6 +25,7 @@ mod traversal_cost;
 pub use crate::algorithm::Precision;
 pub(crate) use arrays::{LIGHT_ROWS, MATERIAL_ROWS, VIEW_ROWS, solid_row_count};
 pub use budget::{Approximations, Bounds};
+pub use features::Features;
 pub use light_spheres::Area;
 pub use reason::{Line, Reason};
 pub use rounding::{Cause, Near, Rounding, is_close_up, scene_space};
@@ -36,7 +38,9 @@ use thiserror::Error;
 use crate::scene::{DEPTH_LIMIT, Scene, SolidKind};
 use arrays::check_arrays;
 use budget::{Spent, Transport, spend};
-use solids::{is_lone_and_seen_from_outside, rotated_boxes};
+use features::Kept;
+use solids::is_lone_and_seen_from_outside;
+pub(crate) use solids::is_rotated;
 
 /// What is asked for besides the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -146,8 +150,10 @@ impl Structure {
 /// What a kernel has to do for a scene. What is false, 0 or 1 here can be compiled out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
-    /// Solids of each kind, in the order of [`SolidKind::ALL`].
+    /// Solids of each kind, in the order of [`SolidKind::ALL`], without those too small for the precision.
     pub counts: [usize; 4],
+    /// Of the scene, dark ones too.
+    pub all_lights: usize,
     /// Whether no box is rotated against the world's axes.
     pub axis_aligned_boxes: Decision<bool>,
     /// Light spheres that primary rays may see, those of dark lights too.
@@ -191,15 +197,15 @@ impl Plan {
         wishes.check()?;
         let transport = Transport::of(scene);
         let is_lone = is_lone_and_seen_from_outside(scene);
-        let counts = SolidKind::ALL
-            .map(|kind| scene.primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count());
         let (mut precision, rounding) = precision::choose(scene, wishes, limits)?;
         // A wrong picture with a word is better than none.
         if matches!(precision.reason, Reason::RoundingSpoils { .. } | Reason::RoundingIsUnknown { .. })
-            && check_arrays(scene, counts, precision.choice, limits).is_err()
+            && check_arrays(scene, Kept::of(scene, precision.choice).counts, precision.choice, limits).is_err()
         {
             precision.choice = Precision::F32;
         }
+        let kept = Kept::of(scene, precision.choice);
+        let counts = kept.counts;
         check_arrays(scene, counts, precision.choice, limits)?;
 
         let lights = lights(scene, &transport);
@@ -221,7 +227,8 @@ impl Plan {
         };
         Ok(Self {
             counts,
-            axis_aligned_boxes: axis_aligned_boxes(scene, counts),
+            axis_aligned_boxes: axis_aligned_boxes(kept),
+            all_lights: scene.lights.len(),
             light_spheres,
             lights,
             shadows,
@@ -289,9 +296,9 @@ impl Wishes {
     }
 }
 
-fn axis_aligned_boxes(scene: &Scene, counts: [usize; 4]) -> Decision<bool> {
-    let boxes = counts[SolidKind::Box as usize];
-    let rotated = rotated_boxes(&scene.primitives);
+fn axis_aligned_boxes(kept: Kept) -> Decision<bool> {
+    let boxes = kept.counts[SolidKind::Box as usize];
+    let rotated = kept.rotated_boxes;
     let reason = match (boxes, rotated) {
         (0, _) => Reason::NoBoxes,
         (_, 0) => Reason::NoBoxRotated,
@@ -301,8 +308,9 @@ fn axis_aligned_boxes(scene: &Scene, counts: [usize; 4]) -> Decision<bool> {
 }
 
 fn lights(scene: &Scene, transport: &Transport) -> Decision<usize> {
-    let choice = transport.lights_that_matter();
     let lights = scene.lights.len();
+    let shining = scene.lights.iter().filter(|light| light.intensity != DVec3::ZERO).count();
+    let choice = if transport.has_light_that_matters() { shining } else { 0 };
     let reason = if lights == 0 {
         Reason::NoLights
     } else if scene.primitives.is_empty() {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::scene::{Primitive, Scene, Solid, world_from_box};
+use crate::scene::{Scene, Solid, world_from_box};
 
 /// The largest of a solid's lengths.
 pub(super) fn size(solid: &Solid) -> f64 {
@@ -85,13 +85,12 @@ pub(super) fn is_lone_and_seen_from_outside(scene: &Scene) -> bool {
     outside_by(&primitive.solid, camera) > SURELY * (size(&primitive.solid) + place)
 }
 
-/// Boxes whose axes are not the world's.
-pub(super) fn rotated_boxes(primitives: &[Primitive]) -> usize {
-    let is_rotated = |solid: &Solid| match *solid {
+/// Whether it is a box whose axes are not the world's.
+pub(crate) fn is_rotated(solid: &Solid) -> bool {
+    match *solid {
         Solid::Box { rotation_degrees, .. } => world_from_box(rotation_degrees) != glam::DMat3::IDENTITY,
         Solid::Sphere { .. } | Solid::Cylinder { .. } | Solid::Cone { .. } => false,
-    };
-    primitives.iter().filter(|primitive| is_rotated(&primitive.solid)).count()
+    }
 }
 
 #[cfg(test)]

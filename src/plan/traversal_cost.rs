@@ -1,6 +1,6 @@
 //! How many pixels an invocation traces, one after another.
 
-use super::solids::rotated_boxes;
+use super::solids::is_rotated;
 use super::{Decision, Limits, Reason, Structure};
 use crate::scene::{BoundingSphere, Primitive, Scene, SolidKind};
 
@@ -42,7 +42,8 @@ impl TraversalCost {
         let groups = |solids: usize| solids.div_ceil(Structure::GROUP - 1).div_ceil(2) as u64;
         let search: u64 = SolidKind::ALL.into_iter().map(|kind| groups(count(kind))).sum();
         // A box that is rotated is tried by the axis-aligned box around it, which a ray may meet for nothing.
-        let solved = 1 + TOUCHED + most_in_one_place(primitives) + rotated_boxes(primitives);
+        let rotated_boxes = primitives.iter().filter(|primitive| is_rotated(&primitive.solid)).count();
+        let solved = 1 + TOUCHED + most_in_one_place(primitives) + rotated_boxes;
         Self { turns: Some((search + AROUND) * solved as u64) }
     }
 

@@ -176,7 +176,11 @@ mod tests {
             ("max_depth = \"two\"", 1, "max_depth: "),
             ("max_depth = 0", 1, "max_depth = 0"),
             ("kernel = \"course\"\nerror = 0.1", 2, "the course algorithm leaves out nothing"),
-            ("precision = \"f64\"\nkernel = \"plain\"", 1, "the plain algorithm calculates in f32 only; whitted can in f64"),
+            (
+                "precision = \"f64\"\nkernel = \"plain\"",
+                1,
+                "the plain algorithm calculates in f32 only; whitted can in f64",
+            ),
             ("error = nan", 1, "error = NaN"),
             ("error = 1\nerror = 2", 2, "duplicate key"),
             ("boxes = 1", 1, "boxes: "),

@@ -3,6 +3,7 @@
 mod canvas;
 mod chunks;
 mod course;
+mod features;
 pub mod hierarchy;
 mod live_kernel;
 mod live_whitted;
@@ -11,7 +12,6 @@ mod pixels;
 pub mod probe;
 mod proxies;
 mod records;
-mod requirements;
 pub mod sampling;
 mod scene_kernel;
 mod settings;
@@ -36,7 +36,7 @@ pub use records::{
 };
 
 pub use crate::algorithm::{Kernel, Precision};
-pub use requirements::Requirements;
+pub use crate::plan::Features;
 pub use settings::{Settings, Work};
 pub use whitted::{check_precision, scene_bindings, scene_space, upload_scene};
 pub use whitted_records::{SolidRecords, WhittedPushConstants, WhittedRecords};

@@ -7,7 +7,6 @@ use glam::DVec3;
 
 use super::course::upload;
 use super::records::{CoursePushConstants, PrimitiveRecords};
-use super::requirements::Requirements;
 use super::whitted::{scene_bindings, upload_scene};
 use super::whitted_records::{WhittedPushConstants, WhittedRecords};
 use super::{Kernel, TracerError, check_precision};
@@ -15,7 +14,7 @@ use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, Device, PipelineDescription, Resource, Use,
     shaders,
 };
-use crate::plan::Precision;
+use crate::plan::{Features, Precision};
 use crate::reference::{Face, Side};
 use crate::scene::{Light, Primitive, Scene, SceneSpace, Solid, farthest_coordinate};
 
@@ -93,7 +92,7 @@ impl Probe {
             Kernel::Plain | Kernel::Whitted(_) => {
                 let precision = kernel.precision();
                 check_precision(device, precision)?;
-                let requirements = Requirements { kinds: [true; 4], ..Requirements::default() };
+                let features = Features { kinds: [true; 4], ..Features::default() };
                 let mut bindings = vec![BindingKind::Records];
                 bindings.extend(scene_bindings(precision));
                 bindings.push(BindingKind::Storage);
@@ -105,7 +104,7 @@ impl Probe {
                     },
                     bindings: &bindings,
                     push_constant_bytes: size_of::<WhittedPushConstants>() as u32,
-                    constants: &requirements.constants(device, precision, [64, 1])?,
+                    constants: &features.constants(device, precision, [64, 1])?,
                 };
                 ComputePipeline::new(device, &description)?
             }
@@ -153,6 +152,7 @@ impl Probe {
             samples_before: 0,
             sample_weight: 1.0,
             tile_size: 0,
+            light_sphere_count: 0,
         };
         let scene = upload_scene(&self.device, &records, precision)?;
         let bytes = precision.bytes(cast_slice(&rows));

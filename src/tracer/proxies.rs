@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::hierarchy::{Bounds, GROUP, Level};
 use super::whitted_records::{row, unit};
+use crate::plan::is_rotated;
 use crate::scene::{SceneSpace, Solid, SolidKind, world_from_box};
 
 /// A row of the texel buffer.
@@ -63,10 +64,6 @@ pub fn nothing(kind: SolidKind) -> Vec<Row> {
 }
 
 const NO_BOX: [Row; 2] = [[0.0; 4], [IMPOSSIBLE, IMPOSSIBLE, IMPOSSIBLE, 0.0]];
-
-pub fn is_rotated(solid: &Solid) -> bool {
-    matches!(solid, Solid::Box { rotation_degrees, .. } if *rotation_degrees != DVec3::ZERO)
-}
 
 /// Middle and half size, rounded outwards by so many place errors.
 fn box_rows(bounds: Bounds, frame: SceneSpace, place_errors: f32, fourth: f32) -> [Row; 2] {

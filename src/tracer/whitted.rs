@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::requirements::Requirements;
 use super::sampling::Sampling;
 use super::whitted_records::{WhittedPushConstants, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingKind, Buffer, BufferKind, Device, GpuError, Resource, Texel};
-use crate::plan::{self, Approximations, Area, MOST_PIXELS, Precision};
+use crate::plan::{self, Approximations, Area, Features, MOST_PIXELS, Precision};
 use crate::scene::{Scene, SceneSpace};
 
 impl Precision {
@@ -165,7 +164,7 @@ pub(super) fn unpacked(packed: u32) -> [u32; 2] {
 pub(super) struct WhittedScene {
     pub kernel: Kernel,
     pub records: WhittedRecords,
-    pub requirements: Requirements,
+    pub features: Features,
     /// Of the whole picture in one tile.
     pub view_uniforms: ViewUniforms,
     /// Of each pixel.
@@ -221,15 +220,16 @@ impl WhittedScene {
             samples_before: 0,
             sample_weight: 1.0,
             tile_size: width | height << 16,
+            light_sphere_count: records.light_sphere_count,
         };
-        let requirements = Requirements::of(&records, &approximations, max_depth);
+        let features = Features::of(&records, &approximations, max_depth);
         let background = scene.background.as_vec3().to_array();
         // No coordinate is larger than twice the reach: no two places are farther apart than 4 * sqrt(3) of that.
         let farthest = 7.0 * f64::from(records.solids.frame.reach) / records.solids.frame.scale;
         let light_spheres = Area::of_light_spheres(scene, f64::from(width) / f64::from(height), farthest);
         let view_uniforms =
             ViewUniforms { frame, light_spheres: light_spheres.filter(|_| approximations.light_spheres) };
-        Ok(Self { kernel, records, requirements, view_uniforms, samples: 1, background })
+        Ok(Self { kernel, records, features, view_uniforms, samples: 1, background })
     }
 
     /// Traced so for a picture of `size` pixels: what the window shows stays the same to the last bit.
@@ -238,19 +238,19 @@ impl WhittedScene {
         self.view_uniforms.frame.image_size = width | height << 16;
         self.view_uniforms.frame.tile_size = self.view_uniforms.frame.image_size;
         self.samples = sampling.samples;
-        self.requirements.samples = sampling.samples > 1;
+        self.features.samples = sampling.samples > 1;
         self
     }
 
     /// With so many pixels an invocation, where those come in packets.
     pub fn with_pixels_per_invocation(mut self, pixels: u32) -> Self {
-        self.requirements.pixels = pixels.clamp(1, MOST_PIXELS);
+        self.features.pixels = pixels.clamp(1, MOST_PIXELS);
         self
     }
 
     /// For [`Settings::without_boxes`](super::Settings).
     pub fn without_boxes(mut self) -> Self {
-        self.requirements.levels = [0; 4];
+        self.features.levels = [0; 4];
         self
     }
 

@@ -5,14 +5,13 @@ use std::thread::available_parallelism;
 
 use super::Kernel;
 use super::parts::{Grid, Part};
-use super::requirements::Requirements;
 use super::whitted::{LightSpheres, ViewUniforms, WhittedScene, scene_bindings, unpacked};
 use super::whitted_records::WhittedPushConstants;
 use crate::gpu::{
     BindingKind, BindingSet, Builds, ComputePipeline, Device, DeviceKind, Dispatch, GpuError, PipelineDescription,
     Recorder, Resource, Shader, shaders,
 };
-use crate::plan::{Area, Precision};
+use crate::plan::{Area, Features, Precision};
 
 /// The kernel, specialised for what a scene requires.
 pub(super) struct WhittedPipeline {
@@ -22,7 +21,7 @@ pub(super) struct WhittedPipeline {
     /// In the pictures that they are for; `Somewhere` is for all.
     light_spheres: LightSpheres,
     kernel: Kernel,
-    requirements: Requirements,
+    features: Features,
     workgroup: [u32; 2],
     /// That an invocation traces: workgroups below each other.
     pub pixels: u32,
@@ -68,7 +67,7 @@ impl WhittedPipeline {
             device,
             builds,
             scene.kernel,
-            scene.requirements,
+            scene.features,
             scene.view_uniforms.where_light_spheres_are(),
             workgroup,
         )
@@ -78,19 +77,19 @@ impl WhittedPipeline {
         device: &Arc<Device>,
         builds: &Builds,
         kernel: Kernel,
-        requirements: Requirements,
+        features: Features,
         light_spheres: LightSpheres,
         workgroup: [u32; 2],
     ) -> Result<Self, GpuError> {
         let precision = kernel.precision();
         let mut bindings = vec![BindingKind::Pixels];
         bindings.extend(scene_bindings(precision));
-        let pixels = if has_packets(device, workgroup) { requirements.pixels } else { 1 };
+        let pixels = if has_packets(device, workgroup) { features.pixels } else { 1 };
         let shader = builds.of(shader_of(device, kernel, workgroup));
         let push_constant_bytes = size_of::<WhittedPushConstants>() as u32;
-        let own = Requirements { pixels, ..requirements };
+        let own = Features { pixels, ..features };
         let with_light_spheres = own.constants(device, precision, workgroup)?;
-        let without_light_spheres = Requirements { light_spheres: 0, ..own }.constants(device, precision, workgroup)?;
+        let without_light_spheres = Features { light_spheres: 0, ..own }.constants(device, precision, workgroup)?;
         let description =
             |constants| PipelineDescription { shader, bindings: &bindings, push_constant_bytes, constants };
         let first = if light_spheres == LightSpheres::Nowhere { &without_light_spheres } else { &with_light_spheres };
@@ -105,7 +104,7 @@ impl WhittedPipeline {
             without_light_spheres,
             light_spheres,
             kernel,
-            requirements,
+            features,
             workgroup,
             pixels,
             threads,
@@ -115,18 +114,18 @@ impl WhittedPipeline {
 
     /// The same for pixels that are traced each by itself.
     pub fn one_by_one(&self, device: &Arc<Device>) -> Result<Self, GpuError> {
-        let requirements = Requirements { pixels: 1, ..self.requirements };
-        Self::made(device, &self.builds, self.kernel, requirements, self.light_spheres, self.workgroup)
+        let features = Features { pixels: 1, ..self.features };
+        Self::made(device, &self.builds, self.kernel, features, self.light_spheres, self.workgroup)
     }
 
     /// The same from other builds.
     pub fn rebuilt(&self, device: &Arc<Device>, builds: &Builds) -> Result<Self, GpuError> {
-        Self::made(device, builds, self.kernel, self.requirements, self.light_spheres, self.workgroup)
+        Self::made(device, builds, self.kernel, self.features, self.light_spheres, self.workgroup)
     }
 
     /// Whether it draws that scene too, as one made for it would.
     pub fn fits(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
-        self.serves(scene, workgroup) && self.requirements.pixels == scene.requirements.pixels
+        self.serves(scene, workgroup) && self.features.pixels == scene.features.pixels
     }
 
     /// Whether it draws that scene too, if perhaps by fewer pixels per invocation.
@@ -135,10 +134,9 @@ impl WhittedPipeline {
     }
 
     fn pixels_are_served(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
-        let pixels = self.requirements.pixels;
-        let own = (self.kernel, self.requirements, self.workgroup);
-        pixels <= scene.requirements.pixels
-            && own == (scene.kernel, Requirements { pixels, ..scene.requirements }, workgroup)
+        let pixels = self.features.pixels;
+        let own = (self.kernel, self.features, self.workgroup);
+        pixels <= scene.features.pixels && own == (scene.kernel, Features { pixels, ..scene.features }, workgroup)
     }
 
     fn light_spheres_are_served(&self, scene: &WhittedScene) -> bool {
@@ -150,7 +148,7 @@ impl WhittedPipeline {
         let is_seen_otherwise = self.pixels_are_served(scene, workgroup) && !self.light_spheres_are_served(scene);
         let light_spheres =
             if is_seen_otherwise { LightSpheres::Somewhere } else { scene.view_uniforms.where_light_spheres_are() };
-        Self::made(device, &self.builds, scene.kernel, scene.requirements, light_spheres, workgroup)
+        Self::made(device, &self.builds, scene.kernel, scene.features, light_spheres, workgroup)
     }
 
     /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.

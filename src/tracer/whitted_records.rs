@@ -11,9 +11,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::hierarchy::{self, Bounds, GROUP, Level};
-use super::proxies::{bounds, is_rotated, level_rows, nothing, proxy};
+use super::proxies::{bounds, level_rows, nothing, proxy};
 use super::sampling::sample_place;
-use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, VIEW_ROWS, solid_row_count};
+use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, VIEW_ROWS, is_rotated, solid_row_count};
 use crate::scene::{
     BoundingSphere, BoxNearby, Camera, CylinderNearby, Light, Primitive, Projection, Scene, SceneSpace, Solid,
     SolidKind, SphereNearby, two_sum, world_from_box,
@@ -24,14 +24,17 @@ use crate::scene::{
 pub struct WhittedRecords {
     /// `View`, then the lights.
     pub view_and_lights: Vec<[f64; 4]>,
+    /// Of lights that give any light: the first ones.
     pub light_count: u32,
+    /// Of all lights.
+    pub light_sphere_count: u32,
     /// Shared by pictures whose primitives and frame are the same.
     pub solids: Arc<SolidRecords>,
 }
 
 impl PartialEq for WhittedRecords {
     fn eq(&self, other: &Self) -> bool {
-        let Self { view_and_lights, light_count, solids } = self;
+        let Self { view_and_lights, light_count, light_sphere_count: _, solids } = self;
         (view_and_lights, *light_count) == (&other.view_and_lights, other.light_count)
             && (Arc::ptr_eq(solids, &other.solids) || *solids == other.solids)
     }
@@ -51,8 +54,10 @@ impl WhittedRecords {
         [width, height]: [u32; 2],
     ) -> Self {
         let mut view_and_lights = view(scene, solids.frame, precision, width, height).to_vec();
-        view_and_lights.extend(scene.lights.iter().flat_map(|light| light_rows(light, solids.frame)));
-        Self { view_and_lights, light_count: scene.lights.len() as u32, solids }
+        let (shining, dark): (Vec<_>, Vec<_>) = scene.lights.iter().partition(|light| light.intensity != DVec3::ZERO);
+        view_and_lights.extend(shining.iter().chain(&dark).flat_map(|light| light_rows(light, solids.frame)));
+        let light_sphere_count = scene.lights.len() as u32;
+        Self { view_and_lights, light_count: shining.len() as u32, light_sphere_count, solids }
     }
 
     /// The buffers of the kernel's own numbers, in the order of their bindings, with their names; the proxies come
@@ -350,6 +355,8 @@ pub struct WhittedPushConstants {
     pub sample_weight: f32,
     /// Pixels, width | height << 16.
     pub tile_size: u32,
+    /// Of all lights.
+    pub light_sphere_count: u32,
 }
 
 impl WhittedPushConstants {

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Run, Scope};
-use crate::tracer::{Kernel, Requirements, Settings, WORKGROUP, WhittedRecords, scene_space};
+use crate::tracer::{Features, Kernel, Settings, WORKGROUP, WhittedRecords, scene_space};
 
 /// Runs in a row that are drawn by one shader.
 pub(super) fn by_shader(runs: &[Run]) -> impl Iterator<Item = &[Run]> {
@@ -64,7 +64,7 @@ fn states(run: &Run) -> Option<[State; 16]> {
     let records = WhittedRecords::of(&run.scene, scene_space(&run.scene, kernel), kernel.precision(), [width, height]);
     let max_depth = run.settings.max_depth.unwrap_or(run.scene.max_depth);
     // Whole, so that nothing new is forgotten here.
-    let Requirements {
+    let Features {
         kinds: [spheres, boxes, cylinders, cones],
         levels,
         are_boxes_axis_aligned,
@@ -77,7 +77,7 @@ fn states(run: &Run) -> Option<[State; 16]> {
         samples: _,
         pixels: _,
         is_close_up: _,
-    } = Requirements::of(&records, &approximations, max_depth);
+    } = Features::of(&records, &approximations, max_depth);
     Some([
         ("spheres", spheres),
         ("boxes", boxes),

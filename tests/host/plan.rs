@@ -7,7 +7,7 @@ use glam::DVec3;
 use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, Wishes, scene_space};
 use zerkalo::reference::{self, LIGHT_SPHERE};
 use zerkalo::scene::{Camera, Light, Material, Scene, Solid, SolidKind, gallery};
-use zerkalo::tracer::WhittedRecords;
+use zerkalo::tracer::{Features, WhittedRecords};
 
 const DEVICE: Limits = Limits { float64: true, max_array_bytes: 1 << 27, max_image_side: 16384, packets: true };
 
@@ -400,4 +400,64 @@ fn a_hierarchy_has_few_boxes_on_top_and_no_more_levels_than_the_kernel_goes_down
     let most = zerkalo::scene::PRIMITIVE_LIMIT;
     assert_eq!(Structure::over(most), Structure::Hierarchy { levels: Structure::MOST_LEVELS });
     assert!(most.div_ceil(Structure::GROUP.pow(Structure::MOST_LEVELS)) <= 64);
+}
+
+/// Of all kinds, sizes and materials, lit by bright and dark lights.
+fn any_scene(random: &mut crate::random::Random) -> Scene {
+    let some = |random: &mut crate::random::Random, most: u64| random.bits() % (most + 1);
+    let most = if random.chance(0.1) { 200 } else { 6 };
+    let spread = if random.chance(0.2) { 20.0 } else { 0.3 };
+    let rare = |random: &mut crate::random::Random, value: f64| if random.chance(0.3) { 0.0 } else { value };
+    let primitives = (0..some(random, most)).map(|_| {
+        let center = random.vector(|random| random.uniform(-9.0, 9.0));
+        let size = random.magnitude(-spread, 0.3);
+        let solid = match random.bits() % 4 {
+            0 => sphere(center, size),
+            1 => {
+                let quarter = 90.0 * some(random, 4) as f64;
+                let angle = if random.chance(0.5) { quarter } else { random.uniform(-180.0, 180.0) };
+                Solid::Box { center, half_size: DVec3::splat(size), rotation_degrees: DVec3::Y * angle }
+            }
+            2 => Solid::Cylinder { ends: [center, center + DVec3::Y * size], radius: size },
+            _ => Solid::Cone { apex: center, axis: DVec3::Y, height: size, half_angle_degrees: 30.0 },
+        };
+        let [specular, diffuse] = [0, 1].map(|_| if random.chance(0.3) { 0.0 } else { random.uniform(0.0, 1.0) });
+        primitive(solid, material(0.1, diffuse, specular))
+    });
+    let primitives = primitives.collect();
+    let lights = (0..some(random, 3)).map(|_| {
+        let position = random.vector(|random| random.uniform(-12.0, 12.0));
+        let intensity = DVec3::splat(rare(random, 0.8));
+        Light { position, intensity, ..Light::default() }
+    });
+    let lights = lights.collect();
+    let background = DVec3::splat(rare(random, 0.2));
+    let max_depth = 1 + some(random, 9) as u32;
+    let camera = Camera { position: DVec3::NEG_Z * 12.0, ..Camera::default() };
+    Scene { camera, lights, primitives, background, max_depth }
+}
+
+#[test]
+fn a_kernel_is_compiled_for_what_the_plan_says() {
+    let mut random = crate::random::Random(17);
+    let (mut small, mut dark, mut close_up) = (0, 0, 0);
+    for number in 0..1000 {
+        let scene = any_scene(&mut random);
+        if scene.validate().is_err() {
+            continue;
+        }
+        let precision = if number % 2 == 0 { Precision::F32 } else { Precision::F64 };
+        let error = if number % 3 == 0 { 0.01 } else { 0.0 };
+        let wishes = Wishes { precision: Some(precision), error, ..Wishes::exact(64, 28) };
+        let plan = Plan::for_scene(&scene, &wishes, &DEVICE).unwrap();
+        let records = WhittedRecords::of(&scene, scene_space(&scene, precision), precision, [64, 28]);
+        let compiled = Features::of(&records, &plan.approximations, plan.generations.choice);
+        let compiled = Features { pixels: plan.pixels.choice, ..compiled };
+        assert_eq!(plan.features(), compiled, "scene {number}: {scene:?}");
+        assert_eq!(plan.counts.map(|count| count as u32), records.solids.counts, "scene {number}");
+        small += usize::from(plan.counts.iter().sum::<usize>() < scene.primitives.len());
+        dark += usize::from(records.light_count < records.light_sphere_count);
+        close_up += usize::from(plan.close_up.is_some());
+    }
+    assert!(small > 5 && dark > 50 && close_up > 20, "{small} {dark} {close_up}: each kind is there");
 }

@@ -11,7 +11,7 @@ use glam::DVec3;
 use zerkalo::gpu::{Shader, shaders};
 use zerkalo::plan::{Limits, Plan, Precision, Wishes, scene_space};
 use zerkalo::scene::{Light, Material, Scene, Solid, SolidKind, gallery};
-use zerkalo::tracer::{Requirements, WhittedRecords};
+use zerkalo::tracer::{Features, WhittedRecords};
 
 const SIZE: (u32, u32) = (1621, 701);
 
@@ -68,8 +68,8 @@ fn reached(device: &TestDevice, kernel: &Kernel, scene: &Scene, precision: Preci
     let wishes = Wishes { precision: Some(precision), ..Wishes::exact(SIZE.0, SIZE.1) };
     let plan = Plan::for_scene(scene, &wishes, &limits).unwrap();
     let records = WhittedRecords::of(scene, scene_space(scene, precision), precision, [SIZE.0, SIZE.1]);
-    let requirements = Requirements::of(&records, &plan.approximations, plan.generations.choice);
-    kernel.reached(&requirements.constants(device, precision, plan.workgroup.choice).unwrap())
+    let features = Features::of(&records, &plan.approximations, plan.generations.choice);
+    kernel.reached(&features.constants(device, precision, plan.workgroup.choice).unwrap())
 }
 
 /// Functions by the beginning of their names, and arrays, that must be reached with a feature and not without it.
@@ -132,11 +132,11 @@ fn upright_boxes_read_no_axes_and_one_light_has_no_loop() {
 #[test]
 fn one_sample_a_pixel_reads_no_picture() {
     let device = TestDevice::open();
-    let requirements = Requirements { kinds: [true; 4], ..Requirements::default() };
+    let features = Features { kinds: [true; 4], ..Features::default() };
     for shader in [&shaders::WHITTED_F32, &shaders::WHITTED_F32_PACKETS, &shaders::WHITTED_F64] {
         let reached = |samples| {
-            let requirements = Requirements { samples, ..requirements };
-            Kernel::of(shader).reached(&requirements.constants(&device, Precision::F32, [8, 8]).unwrap())
+            let features = Features { samples, ..features };
+            Kernel::of(shader).reached(&features.constants(&device, Precision::F32, [8, 8]).unwrap())
         };
         let (one, several) = (reached(false), reached(true));
         let reads = |reached: &Reached| reached.names.iter().any(|name| name.starts_with("mean_before("));

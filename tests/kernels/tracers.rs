@@ -6,7 +6,7 @@ use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::plan::{MOST_PIXELS, TraversalCost};
 use zerkalo::scene::Scene;
-use zerkalo::tracer::{Kernel, Requirements, Settings, Tracer, WhittedRecords, scene_space};
+use zerkalo::tracer::{Features, Kernel, Settings, Tracer, WhittedRecords, scene_space};
 
 use crate::common::TestDevice;
 
@@ -20,7 +20,7 @@ pub struct Tracers<'a> {
 #[derive(PartialEq)]
 struct Made {
     kernel: Kernel,
-    requirements: Requirements,
+    features: Features,
     size: [u32; 2],
     workgroup: [u32; 2],
     without_boxes: bool,
@@ -35,11 +35,11 @@ impl Made {
         let unknown = if without_boxes { 1 } else { MOST_PIXELS };
         let with_pixels_per_invocation =
             || TraversalCost::of(&scene.primitives).pixels_per_invocation(scene.lights.len(), depth, unknown);
-        let requirements = Requirements {
+        let features = Features {
             pixels: pixels.unwrap_or_else(with_pixels_per_invocation),
-            ..Requirements::of(&records, &settings.approximations, depth)
+            ..Features::of(&records, &settings.approximations, depth)
         };
-        Self { kernel, requirements, size: [width, height], workgroup, without_boxes, has_samples: samples > 1 }
+        Self { kernel, features, size: [width, height], workgroup, without_boxes, has_samples: samples > 1 }
     }
 }
 

@@ -50,7 +50,8 @@ fn render_under_every_kind_of_validation_counts_no_message_and_succeeds() {
     let folder = tempfile::tempdir().unwrap();
     for option in ["", "=core", "=gpu-assisted", "=best-practices", "=all"] {
         let option = format!("--validate{option}");
-        let arguments = ["render", "corridor", "-o", "corridor.png", "--size", "96x42", "--algorithm", "course", "--json"];
+        let arguments =
+            ["render", "corridor", "-o", "corridor.png", "--size", "96x42", "--algorithm", "course", "--json"];
         let output = Command::new(env!("CARGO_BIN_EXE_zerkalo"))
             .args(arguments)
             .arg(&option)

@@ -103,7 +103,8 @@ fn without_repeat_the_one_render_is_timed_and_told_in_a_sentence() {
 #[test]
 fn the_reference_draws_without_a_device_and_says_so() {
     let place = Place::new();
-    let mut command = place.command(&render("four", "x.exr", &["--size", "80x35", "--algorithm", "reference", "--json"]));
+    let mut command =
+        place.command(&render("four", "x.exr", &["--size", "80x35", "--algorithm", "reference", "--json"]));
     command.env("VK_DRIVER_FILES", "/nonexistent").env("VK_ICD_FILENAMES", "/nonexistent");
     let run = Run::of(command.output().unwrap());
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));

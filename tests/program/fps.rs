@@ -147,7 +147,18 @@ fn what_cannot_be_measured_or_written_is_refused() {
 #[test]
 fn a_table_is_gone_on_with_only_as_it_was_begun() {
     let place = Place::new();
-    place.run_well(&["--size", "16x7", "--counts", "10", "--algorithm", "course", "--seconds", "0.01", "-o", "fps.json"]);
+    place.run_well(&[
+        "--size",
+        "16x7",
+        "--counts",
+        "10",
+        "--algorithm",
+        "course",
+        "--seconds",
+        "0.01",
+        "-o",
+        "fps.json",
+    ]);
     let whole = place.json("fps.json");
     for (arguments, part) in [
         (&["--size", "16x8"][..], "its height is 7, and here it is 8"),

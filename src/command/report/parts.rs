@@ -89,7 +89,8 @@ impl Parts {
         let [width, height] = self.picture();
         let line = |words: &str| Line::new(words, &self.device).to_string();
         let picture = vec![
-            "for SCENE of `zerkalo gallery`, and likewise for --algorithm plain, course and --precision f64:".to_owned(),
+            "for SCENE of `zerkalo gallery`, and likewise for --algorithm plain, course and --precision f64:"
+                .to_owned(),
             Line::new(
                 &format!("render SCENE --size {width}x{height} --algorithm reference -o reference.exr"),
                 &DeviceArgs::default(),

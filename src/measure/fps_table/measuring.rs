@@ -7,7 +7,8 @@ use crate::algorithm::Algorithm;
 use crate::gpu::Device;
 use crate::measure::{FrameTime, TimedTracer};
 use crate::scene::{Scene, SolidKind, gallery};
-use crate::tracer::{Settings, TracerError};
+use crate::settings::RenderSettings;
+use crate::tracer::{TracerError, limits_of};
 
 /// Where the frames of a table are drawn.
 pub trait Stage {
@@ -37,11 +38,15 @@ impl OffScreen {
 impl Stage for OffScreen {
     fn set_scene(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError> {
         let tracer = |&algorithm: &Algorithm| {
-            let settings = Settings {
-                kernel: kernel_of(algorithm)?,
+            let settings = RenderSettings {
+                algorithm,
+                precision: Some(kernel_of(algorithm)?.precision()),
                 max_depth: Some(plan.generations),
-                ..Settings::new(plan.width, plan.height)
+                ..RenderSettings::default()
             };
+            let limits = limits_of(self.device.description());
+            let drawing = settings.drawing(scene, &limits, plan.width, plan.height);
+            let settings = drawing.map_err(|error| TracerError::Refused(error.to_string()))?.settings;
             Ok((algorithm, TimedTracer::new(&self.device, scene, &settings)?))
         };
         // The last scene's pictures make room before.

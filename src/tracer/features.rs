@@ -1,46 +1,25 @@
-//! What the accurate kernel is made for: its specialization constants.
+//! The accurate kernel's specialization constants.
 
 use std::sync::Arc;
 
 use super::whitted_records::WhittedRecords;
 use crate::gpu::{Device, DeviceKind, FloatWidth, GpuError, arithmetic};
-use crate::plan::{Approximations, CPU_MAX_ITERATIONS, Precision};
+use crate::plan::{Approximations, CPU_MAX_ITERATIONS, Features, Precision};
 
-/// What the kernel is made for, apart from its precision and its workgroup.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Requirements {
-    /// Which kinds there are: spheres, boxes, cylinders, cones.
-    pub kinds: [bool; 4],
-    /// Of boxes over the solids of each kind.
-    pub levels: [u32; 4],
-    pub are_boxes_axis_aligned: bool,
-    /// The records are those of a close-up.
-    pub is_close_up: bool,
-    pub highlights: bool,
-    /// Whose light spheres primary rays may see: none, one, or several (2).
-    pub light_spheres: u32,
-    /// That brighten: as many.
-    pub lights: u32,
-    pub shadows: bool,
-    pub reflections: bool,
-    /// Pixels have more than one sample.
-    pub samples: bool,
-    /// That an invocation traces, one after another.
-    pub pixels: u32,
-}
-
-impl Requirements {
+impl Features {
+    /// Of an exact picture, or of what `approximations` leave of it, as a scene's records have it.
     pub fn of(records: &WhittedRecords, approximations: &Approximations, max_depth: u32) -> Self {
-        let lights = |matter: bool| if matter { records.light_count.min(2) } else { 0 };
-        let has_lights = lights(approximations.lights) > 0;
+        let lights = |matter: bool, count: u32| if matter { count.min(2) } else { 0 };
+        let lights_that_shine = lights(approximations.lights, records.light_count);
+        let has_lights = lights_that_shine > 0;
         Self {
             kinds: records.solids.counts.map(|count| count > 0),
             levels: records.solids.levels,
             are_boxes_axis_aligned: records.solids.are_boxes_axis_aligned,
             is_close_up: records.solids.frame.is_close_up,
             highlights: approximations.highlights && has_lights,
-            light_spheres: lights(approximations.light_spheres),
-            lights: lights(approximations.lights),
+            light_spheres: lights(approximations.light_spheres, records.light_sphere_count),
+            lights: lights_that_shine,
             shadows: approximations.shadows && has_lights,
             reflections: approximations.reflections && max_depth > 1,
             samples: false,

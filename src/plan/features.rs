@@ -1,0 +1,82 @@
+//! What a plan has the kernel compiled for.
+
+use rayon::prelude::*;
+
+use super::solids::is_rotated;
+use super::{Plan, Structure, scene_space};
+use crate::algorithm::Precision;
+use crate::scene::{BoundingSphere, Primitive, Scene, SolidKind};
+
+/// What the accurate kernel is compiled for, apart from its precision and its workgroup: its specialization constants.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Features {
+    /// Which kinds there are: spheres, boxes, cylinders, cones.
+    pub kinds: [bool; 4],
+    /// Of boxes over the solids of each kind.
+    pub levels: [u32; 4],
+    pub are_boxes_axis_aligned: bool,
+    /// The records are those of a close-up.
+    pub is_close_up: bool,
+    pub highlights: bool,
+    /// Whose light spheres primary rays may see: none, one, or several (2).
+    pub light_spheres: u32,
+    /// That brighten: as many.
+    pub lights: u32,
+    pub shadows: bool,
+    pub reflections: bool,
+    /// Pixels have more than one sample.
+    pub samples: bool,
+    /// That an invocation traces, one after another.
+    pub pixels: u32,
+}
+
+/// The solids that the kernel sees of a scene.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Kept {
+    /// Of each kind.
+    pub counts: [usize; 4],
+    pub rotated_boxes: usize,
+}
+
+impl Kept {
+    /// Without those so small that their squares leave the range of the precision: against the scene they are nothing
+    /// that a pixel could show.
+    pub fn of(scene: &Scene, precision: Precision) -> Self {
+        let least = precision.smallest_length() / scene_space(scene, precision).scale;
+        let is_kept = |primitive: &&Primitive| BoundingSphere::of(&primitive.solid).radius >= least;
+        let one = |primitive: &Primitive| {
+            let mut counts = [0; 4];
+            counts[primitive.solid.kind() as usize] = 1;
+            Self { counts, rotated_boxes: usize::from(is_rotated(&primitive.solid)) }
+        };
+        let none = || Self { counts: [0; 4], rotated_boxes: 0 };
+        let sum = |a: Self, b: Self| Self {
+            counts: std::array::from_fn(|kind| a.counts[kind] + b.counts[kind]),
+            rotated_boxes: a.rotated_boxes + b.rotated_boxes,
+        };
+        scene.primitives.par_iter().filter(is_kept).map(one).reduce(none, sum)
+    }
+}
+
+impl Plan {
+    /// As the kernel is compiled for a picture of one sample a pixel on a device whose invocations come in packets.
+    pub fn features(&self) -> Features {
+        let levels = |structure: &Structure| match *structure {
+            Structure::None => 0,
+            Structure::Hierarchy { levels } => levels,
+        };
+        Features {
+            kinds: SolidKind::ALL.map(|kind| self.counts[kind as usize] > 0),
+            levels: self.structures.choice.each_ref().map(levels),
+            are_boxes_axis_aligned: self.axis_aligned_boxes.choice,
+            is_close_up: self.close_up.is_some(),
+            highlights: self.highlights.choice,
+            light_spheres: if self.light_spheres.choice > 0 { self.all_lights.min(2) as u32 } else { 0 },
+            lights: self.lights.choice.min(2) as u32,
+            shadows: self.shadows.choice,
+            reflections: self.generations.choice > 1,
+            samples: false,
+            pixels: self.pixels.choice,
+        }
+    }
+}
