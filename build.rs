@@ -69,11 +69,10 @@ fn compile_all() -> Result<(), Box<dyn Error>> {
             let spirv_path = out_dir.join(format!("{name}.spv"));
             fs::write(&spirv_path, spirv.as_binary_u8())?;
             let (constant, file) = (name.to_uppercase(), Path::new(SHADER_DIR).join(kernel));
-            writeln!(embedded, "/// `{}`\npub const {constant}: Shader =", file.display())?;
+            writeln!(embedded, "/// `{}`\npub static {constant}: Shader =", file.display())?;
             writeln!(
                 embedded,
-                "    Shader {{ name: {name:?}, spirv: Cow::Borrowed(include_bytes!({spirv_path:?})), \
-                 asks_for_float_controls: {} }};",
+                "    Shader::embedded({name:?}, include_bytes!({spirv_path:?}), {});",
                 variant.asks_for_float_controls
             )?;
         }

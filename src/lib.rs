@@ -13,6 +13,7 @@ pub mod plan;
 
 pub mod reference;
 
+#[allow(unsafe_code, reason = "Vulkan is called here, and nowhere else")]
 pub mod gpu;
 
 pub mod tracer;

@@ -13,7 +13,7 @@ pub fn benches(criterion: &mut Criterion) {
     for name in ["four", "corridor", "showcase", "grid-cone-100"] {
         let scene = crate::scene(name);
         group.bench_function(name, |bencher| {
-            bencher.iter(|| reference::render(&scene, SIZE[0], SIZE[1], &|_| ControlFlow::Continue(())))
+            bencher.iter(|| reference::render(&scene, SIZE[0], SIZE[1], &|_| ControlFlow::Continue(())));
         });
     }
     group.finish();

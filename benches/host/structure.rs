@@ -19,7 +19,7 @@ pub fn benches(criterion: &mut Criterion) {
         group.bench_function(format!("{name}, levels"), |bencher| bencher.iter(|| levels(&ordered)));
         for precision in [Precision::F32, Precision::F64] {
             group.bench_function(format!("{name}, all records {}", precision.name()), |bencher| {
-                bencher.iter(|| WhittedRecords::of(&scene, frame, precision, [1621, 701]))
+                bencher.iter(|| WhittedRecords::of(&scene, frame, precision, [1621, 701]));
             });
         }
     }

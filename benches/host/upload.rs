@@ -19,7 +19,7 @@ pub fn benches(criterion: &mut Criterion) {
             let records = WhittedRecords::of(&scene, scene_space(&scene, precision), precision, [1621, 701]);
             group.throughput(Throughput::Elements(scene.primitives.len() as u64));
             group.bench_function(format!("{name}, {}", precision.name()), |bencher| {
-                bencher.iter(|| upload_scene(&device, &records, precision).map(|resources| resources.len()))
+                bencher.iter(|| upload_scene(&device, &records, precision).map(|resources| resources.len()));
             });
         }
     }

@@ -116,9 +116,9 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     let (is_from_stream, is_into_stream) = (args.scene == STREAM, args.output.as_os_str() == STREAM);
     args.streams.check(is_from_stream, is_into_stream)?;
     if is_into_stream {
-        PictureFormat::check_output()?
+        PictureFormat::check_output()?;
     } else {
-        Frame::check_output_path(&args.output)?
+        Frame::check_output_path(&args.output)?;
     }
     let scene =
         if is_from_stream { args.streams.format.unwrap_or_default().read_scene()? } else { scene_named(&args.scene)? };

@@ -233,10 +233,11 @@ fn on_device(device: &Arc<Device>, shader: &shaders::Shader, pairs: &[u8]) -> Re
     let results = Arc::new(Buffer::new(device, "results", BufferKind::Storage, (pairs.len() / 2 * ROWS) as u64)?);
     let read_back = Resource::from(&results);
     let set = BindingSet::new(&pipeline, &[Resource::from(&Arc::new(input)), read_back.clone()])?;
-    Commands::new(device, "arithmetic")?.run(|recorder| {
+    let mut commands = Commands::new(device, "arithmetic")?;
+    commands.run(|recorder| {
         recorder.dispatch(&pipeline, &set, &[], [PAIRS.div_ceil(64) as u32, 1, 1]);
         recorder.make_ready(&read_back, Use::HostRead);
         Ok(())
     })?;
-    Ok(results.bytes()?.to_vec())
+    Ok(results.bytes(&commands.idle()?)?.to_vec())
 }

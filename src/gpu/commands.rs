@@ -1,6 +1,7 @@
 //! Recording, submitting and waiting.
 
 use std::any::Any;
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 use ash::vk;
@@ -22,6 +23,9 @@ pub struct Commands {
     hazards: Hazards,
     device: Arc<Device>,
 }
+
+/// Nothing that was submitted from some commands is running, and nothing can be while they are borrowed.
+pub struct Idle<'a>(pub(super) PhantomData<&'a mut Commands>);
 
 /// Semaphores between a submission and the display.
 #[derive(Debug, Clone, Copy, Default)]
@@ -71,14 +75,29 @@ impl Commands {
     /// As [`Commands::run`], but images keep what the last run left in them.
     pub fn go_on(&mut self, record: impl FnOnce(&mut Recorder) -> Result<(), GpuError>) -> Result<(), GpuError> {
         let mut hazards = std::mem::take(&mut self.hazards);
-        self.submit(&mut hazards, Semaphores::default(), record)?;
+        let submitted = self.submit(&mut hazards, Semaphores::default(), record);
         self.hazards = hazards;
+        submitted?;
         self.wait()
     }
 
     /// Records and submits, after waiting for the submission before; `hazards` is the book of the submissions that
-    /// this one follows without the host's waiting for them.
+    /// this one follows without the host's waiting for them, and stays as it is where nothing is submitted.
     pub(super) fn submit(
+        &mut self,
+        hazards: &mut Hazards,
+        semaphores: Semaphores,
+        record: impl FnOnce(&mut Recorder) -> Result<(), GpuError>,
+    ) -> Result<(), GpuError> {
+        let before = hazards.clone();
+        let submitted = self.record_and_submit(hazards, semaphores, record);
+        if submitted.is_err() {
+            *hazards = before;
+        }
+        submitted
+    }
+
+    fn record_and_submit(
         &mut self,
         hazards: &mut Hazards,
         semaphores: Semaphores,
@@ -108,15 +127,24 @@ impl Commands {
         if semaphores.signal.is_some() {
             submit = submit.signal_semaphores(semaphores.signal.as_slice());
         }
-        // SAFETY: everything recorded is kept until the wait ends; no submission is using the fence.
-        unsafe {
-            raw.end_command_buffer(self.buffer)
-                .and_then(|()| raw.reset_fences(&[self.fence]))
-                .and_then(|()| raw.queue_submit(self.device.queue, &[submit], self.fence))
-        }
-        .map_err(GpuError::call(|| format!("submit '{}'", self.name)))?;
+        let submitted = self.device.with_queue(|queue| {
+            // SAFETY: everything recorded is kept until the wait ends; no submission is using the fence, and no other
+            // thread the queue.
+            unsafe {
+                raw.end_command_buffer(self.buffer)
+                    .and_then(|()| raw.reset_fences(&[self.fence]))
+                    .and_then(|()| raw.queue_submit(queue, &[submit], self.fence))
+            }
+        });
+        submitted.map_err(GpuError::call(|| format!("submit '{}'", self.name)))?;
         self.in_flight = Some(kept);
         Ok(())
+    }
+
+    /// Waits until the device is done with the last submission; while the answer is held, none follows.
+    pub fn idle(&mut self) -> Result<Idle<'_>, GpuError> {
+        self.wait()?;
+        Ok(Idle(PhantomData))
     }
 
     /// Waits until the device is done with the last submission.
@@ -129,14 +157,14 @@ impl Commands {
         if waited.is_ok() && self.device.is_gpu_assisted() {
             // Layer 1.4.309 reads what kernels did in a thread of its own, which the fence does not wait for, and forgets
             // it with the command buffer.
-            // SAFETY: the device is alive; its only queue is used by this thread alone, as in `submit`.
-            waited = unsafe { self.device.raw.queue_wait_idle(self.device.queue) };
+            // SAFETY: the device is alive; no other thread uses the queue.
+            waited = self.device.with_queue(|queue| unsafe { self.device.raw.queue_wait_idle(queue) });
         }
         if waited.is_err() {
             // Work may be left in flight, which must not outlive its resources. On a lost device there is none, and
             // this fails too.
-            // SAFETY: the device is alive.
-            let _ = unsafe { self.device.raw.device_wait_idle() };
+            // SAFETY: the device is alive; no other thread uses its queue.
+            let _ = self.device.with_queue(|_| unsafe { self.device.raw.device_wait_idle() });
         }
         self.in_flight = None;
         waited.map_err(GpuError::call(|| format!("run '{}'", self.name)))

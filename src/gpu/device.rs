@@ -23,7 +23,8 @@ const MAX_MEMORY_BLOCK_BYTES: u64 = 64 << 20;
 /// Every object made from it holds it by `Arc`, so it is destroyed last.
 pub struct Device {
     pub(crate) raw: ash::Device,
-    pub(crate) queue: vk::Queue,
+    /// Used by one thread at a time: the lock is the specification's external synchronization.
+    queue: Mutex<vk::Queue>,
     pub(super) queue_family: u32,
     pub(super) timestamp_valid_bits: u32,
     pub(super) timestamp_period_ns: f32,
@@ -74,7 +75,7 @@ impl Device {
         let mut device = Self {
             cache: PipelineCache::new(&raw, candidate.cache_identity),
             raw,
-            queue,
+            queue: Mutex::new(queue),
             queue_family: candidate.queue_family,
             timestamp_valid_bits: candidate.timestamp_valid_bits,
             timestamp_period_ns: candidate.timestamp_period_ns,
@@ -117,6 +118,11 @@ impl Device {
 
     pub(super) fn with_allocator<R>(&self, work: impl FnOnce(&mut Allocator) -> R) -> R {
         work(&mut self.allocator().lock().unwrap_or_else(std::sync::PoisonError::into_inner))
+    }
+
+    /// The queue, for as long as `work` takes.
+    pub(crate) fn with_queue<R>(&self, work: impl FnOnce(vk::Queue) -> R) -> R {
+        work(*self.queue.lock().unwrap_or_else(std::sync::PoisonError::into_inner))
     }
 
     /// Whether the layer instruments kernels.

@@ -36,7 +36,7 @@ impl Use {
 }
 
 /// What has happened to one resource in the commands recorded so far.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 struct State {
     /// The commands that used it since the last barrier, with how.
     uses: Vec<(String, Use)>,
@@ -47,7 +47,7 @@ struct State {
 }
 
 /// The book of one command buffer, or of several that follow each other without the host's waiting in between.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Hazards {
     states: HashMap<ResourceId, State>,
 }

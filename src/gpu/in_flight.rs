@@ -1,10 +1,11 @@
 //! Submissions that follow each other without the host's waiting in between.
 
+use std::marker::PhantomData;
 use std::sync::Arc;
 
 use ash::vk;
 
-use super::commands::{Commands, Semaphores};
+use super::commands::{Commands, Idle, Semaphores};
 use super::device::Device;
 use super::error::GpuError;
 use super::hazards::Hazards;
@@ -59,6 +60,12 @@ impl InFlight {
     pub fn run(&mut self, record: impl FnOnce(&mut Recorder) -> Result<(), GpuError>) -> Result<(), GpuError> {
         self.submit(Semaphores::default(), record)?;
         self.wait_for_all()
+    }
+
+    /// As [`InFlight::wait_for_all`]; while the answer is held, nothing is submitted.
+    pub fn idle(&mut self) -> Result<Idle<'_>, GpuError> {
+        self.wait_for_all()?;
+        Ok(Idle(PhantomData))
     }
 
     /// A pool for a library's own short submissions, after waiting for all of these.

@@ -6,6 +6,7 @@ use ash::vk;
 use gpu_allocator::MemoryLocation;
 use gpu_allocator::vulkan::{Allocation, AllocationCreateDesc, AllocationScheme};
 
+use super::commands::Idle;
 use super::device::Device;
 use super::error::GpuError;
 use super::hazards::ResourceId;
@@ -149,8 +150,8 @@ impl Buffer {
         Ok(())
     }
 
-    /// The buffer's bytes. A submission that wrote them must have been waited for.
-    pub fn bytes(&self) -> Result<&[u8], GpuError> {
+    /// The buffer's bytes, for as long as what submits its writing is idle.
+    pub fn bytes<'a>(&'a self, _: &'a Idle<'a>) -> Result<&'a [u8], GpuError> {
         let mapped = self.allocation.as_ref().and_then(Allocation::mapped_slice);
         let mapped = mapped.ok_or_else(|| GpuError::NotMapped { object: format!("buffer '{}'", self.name) })?;
         Ok(&mapped[..self.size as usize])

@@ -263,7 +263,7 @@ mod tests {
                     assert!(is_fault(said(layer, remark.severity, remark.id, "VK_EXT_another")), "{}", remark.id);
                 }
             }
-            assert!(is_fault(said(super::layer(2, 100), remark.severity, remark.id, &text)), "{}", remark.id);
+            assert!(is_fault(said(layer(2, 100), remark.severity, remark.id, &text)), "{}", remark.id);
         }
     }
 

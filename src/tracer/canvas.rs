@@ -124,7 +124,7 @@ impl Canvas {
     /// The device does not take it; the last build goes on.
     pub fn replace_shader(&mut self, build: Shader) -> Result<(), TracerError> {
         let own = self.kernel.shader();
-        let is_used = own.name == build.name && self.builds.of(own).spirv != build.spirv;
+        let is_used = own.name == build.name && self.builds.of(own).spirv() != build.spirv();
         let mut builds = self.builds.clone();
         builds.put(build);
         if is_used {

@@ -207,8 +207,9 @@ impl Tracer {
     }
 
     /// What was read back of a tile, into its place in `frame`.
-    fn take_pixels(&self, tile: Tile, frame: &mut Frame) -> Result<(), TracerError> {
-        let pixels: &[[f32; 4]] = bytemuck::cast_slice(self.target.pixels.bytes()?);
+    fn take_pixels(&mut self, tile: Tile, frame: &mut Frame) -> Result<(), TracerError> {
+        let idle = self.commands.idle()?;
+        let pixels: &[[f32; 4]] = bytemuck::cast_slice(self.target.pixels.bytes(&idle)?);
         let written = &pixels[..(tile.width * tile.height) as usize];
         // Alpha counts the samples that came to their end.
         let given_up = written.iter().filter(|[.., alpha]| *alpha != self.samples as f32).count();
@@ -290,9 +291,9 @@ impl Tracer {
             })
         };
         if sample == 0 {
-            commands.run(record)?
+            commands.run(record)?;
         } else {
-            commands.go_on(record)?
+            commands.go_on(record)?;
         }
         timer.as_deref().map(Timer::elapsed_ns).transpose()
     }

@@ -216,12 +216,13 @@ impl Probe {
         resources.extend(scene.iter().cloned());
         resources.push(hit_resource.clone());
         let set = BindingSet::new(&self.pipeline, &resources)?;
-        Commands::new(&self.device, "probe rays")?.run(|recorder| {
+        let mut commands = Commands::new(&self.device, "probe rays")?;
+        commands.run(|recorder| {
             recorder.dispatch(&self.pipeline, &set, frame, [count.div_ceil(64) as u32, 1, 1]);
             recorder.make_ready(&hit_resource, Use::HostRead);
             Ok(())
         })?;
-        Ok(hits.bytes()?.to_vec())
+        Ok(hits.bytes(&commands.idle()?)?.to_vec())
     }
 }
 

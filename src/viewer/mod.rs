@@ -28,8 +28,6 @@ mod session;
 #[cfg(debug_assertions)]
 mod shader_watch;
 pub mod state;
-mod swapchain;
-mod swapchain_choices;
 pub mod text;
 
 pub use app::{Options, Stopper, ViewerError, run};

@@ -14,9 +14,9 @@ use winit::window::{Window, WindowAttributes, WindowId};
 
 use super::app::ViewerError;
 use super::screen::ScreenError;
-use super::swapchain::{Fit, Swapchain};
 use crate::gpu::{
-    Builds, Device, GpuError, InFlight, Instance, Messages, Semaphores, Surface, SurfaceTarget, Validation,
+    Builds, Device, Fit, GpuError, InFlight, Instance, Messages, Semaphores, Surface, SurfaceTarget, Swapchain,
+    Validation,
 };
 use crate::scene::Scene;
 use crate::tracer::{Canvas, Kernel, TracerError};
@@ -222,13 +222,10 @@ impl<'d> PictureWindow<'d> {
         let canvas = &mut canvases[canvas].1;
         let place = in_flight.wait_for_place()?;
         canvas.collect(place)?;
-        let fit = match swapchain.acquire()? {
-            Ok(image) => {
-                in_flight.submit(swapchain.semaphores(image), |recorder| {
-                    swapchain.record(recorder, image, [0.0; 4], canvas.picture(), [0, 0], |_| {})
-                })?;
-                swapchain.present(image)?
-            }
+        let fit = match swapchain.acquire(in_flight)? {
+            Ok(image) => swapchain.show(in_flight, image, |recorder, image| {
+                image.fill(recorder, [0.0; 4], canvas.picture(), [0, 0], |_| {})
+            })?,
             Err(fit) => Err(fit),
         };
         let (Ok(mends) | Err(mends)) = fit;

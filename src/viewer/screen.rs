@@ -7,8 +7,9 @@ use egui::epaint::ImageDelta;
 use egui::{ClippedPrimitive, TextureId};
 use egui_ash_renderer::{Options, RenderMode, Renderer, RendererError};
 
-use super::swapchain::{Fit, Swapchain};
-use crate::gpu::{Builds, Device, GpuError, InFlight, Instance, Semaphores, Surface, SurfaceTarget, WidgetMemory};
+use crate::gpu::{
+    Builds, Device, Fit, GpuError, InFlight, Instance, Semaphores, Surface, SurfaceTarget, Swapchain, WidgetMemory,
+};
 use crate::tracer::{Canvas, Kernel, Precision, TracerError};
 
 /// Why the window cannot go on.
@@ -117,7 +118,7 @@ impl Screen {
             self.swapchain = Swapchain::new(&self.device, surface, size, self.waits_for_display)?;
             let Some(swapchain) = &self.swapchain else { return Ok(false) };
             self.is_outdated = false;
-            let render_mode = RenderMode::RenderPass(swapchain.render_pass);
+            let render_mode = RenderMode::RenderPass(swapchain.render_pass());
             match &mut self.painter {
                 Some(painter) => painter.renderer.set_render_mode(render_mode)?,
                 None => {
@@ -150,7 +151,7 @@ impl Screen {
         self.canvas.collect(place)?;
         self.canvas.forget_dropped(&mut self.in_flight);
 
-        let image = match swapchain.acquire()? {
+        let image = match swapchain.acquire(&mut self.in_flight)? {
             Ok(image) => image,
             Err(fit) => {
                 self.mend(fit)?;
@@ -159,15 +160,15 @@ impl Screen {
         };
         let mut failed = None;
         let extent = swapchain.extent();
-        self.in_flight.submit(swapchain.semaphores(image), |recorder| {
-            self.canvas.record(recorder, place)?;
-            self.canvas.upscale(recorder);
-            swapchain.record(recorder, image, background, self.canvas.picture(), corner, |commands| {
+        let canvas = &mut self.canvas;
+        let presented = swapchain.show(&mut self.in_flight, image, |recorder, image| {
+            canvas.record(recorder, place)?;
+            canvas.upscale(recorder);
+            image.fill(recorder, background, canvas.picture(), corner, |commands| {
                 let drawn = painter.renderer.cmd_draw(commands, extent, widgets.pixels_per_point, &widgets.primitives);
                 failed = drawn.err();
             })
         })?;
-        let presented = swapchain.present(image)?;
         let (Ok(fit) | Err(fit)) = presented;
         self.mend(fit)?;
         failed.map_or(Ok(presented.is_ok()), |error| Err(error.into()))
@@ -227,7 +228,7 @@ impl Painter {
             self.renderer.free_texture(id)?;
         }
         for (id, delta) in textures {
-            self.renderer.set_texture(device.queue, pool, id, &delta)?;
+            device.with_queue(|queue| self.renderer.set_texture(queue, pool, id, &delta))?;
         }
         Ok(())
     }

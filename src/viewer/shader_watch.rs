@@ -1,7 +1,6 @@
 //! The kernels that draw, compiled anew whenever their sources change. In debug builds only: release builds have no
 //! compiler in them.
 
-use std::borrow::Cow;
 use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,17 +13,17 @@ use crate::gpu::{Shader, compile, shaders, variants};
 const PERIOD: Duration = Duration::from_millis(200);
 
 /// Every build of the kernels that a window draws by, by their files under `glsl/` without the ending.
-const DRAWING: [(&str, &[Shader]); 2] = [
-    ("course", &[shaders::COURSE]),
+const DRAWING: [(&str, &[&Shader]); 2] = [
+    ("course", &[&shaders::COURSE]),
     (
         "whitted",
         &[
-            shaders::WHITTED_F32,
-            shaders::WHITTED_F64,
-            shaders::WHITTED_PLAIN,
-            shaders::WHITTED_F32_PACKETS,
-            shaders::WHITTED_F64_PACKETS,
-            shaders::WHITTED_PLAIN_PACKETS,
+            &shaders::WHITTED_F32,
+            &shaders::WHITTED_F64,
+            &shaders::WHITTED_PLAIN,
+            &shaders::WHITTED_F32_PACKETS,
+            &shaders::WHITTED_F64_PACKETS,
+            &shaders::WHITTED_PLAIN_PACKETS,
         ],
     ),
 ];
@@ -66,7 +65,7 @@ impl ShaderWatch {
 }
 
 fn build_all(sources: &Path) -> Outcomes {
-    let of_kernel = |(kernel, own): (&'static str, &'static [Shader])| {
+    let of_kernel = |(kernel, own): (&'static str, &'static [&'static Shader])| {
         own.iter().map(move |own| build(sources, kernel, own).map_err(|error| error.to_string()))
     };
     DRAWING.into_iter().flat_map(of_kernel).collect()
@@ -78,7 +77,7 @@ fn build(sources: &Path, kernel: &str, own: &Shader) -> Result<Shader, Box<dyn E
     let variant = variants(kernel).iter().find(|variant| is_own(variant.suffix));
     let variant = *variant.ok_or_else(|| format!("{kernel}.comp has no variant {}", own.name))?;
     let artifact = compile(sources, Path::new(&format!("{kernel}.comp")), variant, true)?;
-    Ok(Shader { spirv: Cow::Owned(artifact.as_binary_u8().to_vec()), ..*own })
+    Ok(own.rebuilt(artifact.as_binary_u8().to_vec())?)
 }
 
 /// Every file with its time; editors that write beside and rename change it as well as those that write in place.
@@ -161,7 +160,7 @@ mod tests {
         for (own, build) in own.into_iter().zip(builds) {
             let build = build.unwrap();
             assert_eq!((build.name, build.asks_for_float_controls), (own.name, own.asks_for_float_controls));
-            assert!(build.spirv == own.spirv, "{}", own.name);
+            assert!(build.spirv() == own.spirv(), "{}", own.name);
         }
     }
 }

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use crate::common::TestDevice;
 use bytemuck::cast_slice;
 use zerkalo::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, PipelineDescription, Resource, Use, shaders,
+    BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, GpuError, InFlight, PipelineDescription,
+    Resource, Use, shaders,
 };
 
 /// Invocations of the probe's one workgroup.
@@ -38,6 +39,10 @@ impl Probe {
         let resource = Resource::from(&numbers);
         let set = BindingSet::new(&pipeline, std::slice::from_ref(&resource)).unwrap();
         Self { pipeline, set, numbers, resource, commands: Commands::new(device, "sum").unwrap() }
+    }
+
+    fn row(&mut self) -> Vec<u32> {
+        cast_slice(self.numbers.bytes(&self.commands.idle().unwrap()).unwrap()).to_vec()
     }
 
     /// `dispatches` in one submission, with or without the barriers between them and the one before the host reads.
@@ -93,7 +98,7 @@ fn dispatches_with_barriers_between_are_silent_and_add_up() {
     let mut probe = Probe::new(&device);
     probe.run(5, true, true);
     assert_eq!(device.take_messages(), []);
-    let row: &[u32] = cast_slice(probe.numbers.bytes().unwrap());
+    let row = probe.row();
     assert_eq!(row[..7], [1, 5, 10, 10, 5, 1, 0], "row 5 of Pascal's triangle");
     assert!(row[7..].iter().all(|&number| number == 0));
 }
@@ -114,6 +119,29 @@ fn submissions_are_waited_for_and_need_no_barrier_between_them() {
     probe.run(1, true, true);
     probe.run(1, true, true);
     assert_eq!(device.take_messages(), []);
-    let row: &[u32] = cast_slice(probe.numbers.bytes().unwrap());
+    let row = probe.row();
     assert_eq!(row[..4], [1, 2, 1, 0], "row 2 of Pascal's triangle");
+}
+
+/// Of submissions that follow each other without the host's waiting.
+#[test]
+fn a_recording_that_fails_leaves_nothing_in_the_book() {
+    let device = TestDevice::open();
+    let Probe { pipeline, set, resource, .. } = Probe::new(&device);
+    let mut in_flight = InFlight::new(&device, "sum").unwrap();
+    let failure = || GpuError::NotMapped { object: "a test's".to_owned() };
+    let failed = in_flight.run(|recorder| {
+        recorder.dispatch(&pipeline, &set, &[], [1, 1, 1]);
+        Err(failure())
+    });
+    assert!(failed.is_err());
+    // Not after the dispatch that was never submitted.
+    in_flight
+        .run(|recorder| {
+            recorder.dispatch(&pipeline, &set, &[], [1, 1, 1]);
+            recorder.make_ready(&resource, Use::HostRead);
+            Ok(())
+        })
+        .unwrap();
+    assert_eq!(device.take_messages(), []);
 }

@@ -162,20 +162,21 @@ fn another_build_of_the_kernel_that_draws_draws_from_then_on() {
     easel.canvas.use_kernel(ACCURATE).unwrap();
     assert!(easel.draw(&scene).0 == accurate);
 
-    let build = |of: Shader, code: Shader| Shader { spirv: code.spirv, ..of };
-    easel.canvas.replace_shader(build(shaders::COURSE, shaders::COURSE)).unwrap();
-    easel.canvas.replace_shader(shaders::WHITTED_F32).unwrap();
+    let build = |of: &Shader, code: &Shader| of.rebuilt(code.spirv().to_vec()).unwrap();
+    assert!(shaders::COURSE.rebuilt(b"no SPIR-V".to_vec()).is_err());
+    easel.canvas.replace_shader(build(&shaders::COURSE, &shaders::COURSE)).unwrap();
+    easel.canvas.replace_shader(shaders::WHITTED_F32.clone()).unwrap();
     assert_eq!(easel.draw(&scene).1, 0, "another kernel's build, and the same one: nothing is traced anew");
-    easel.canvas.replace_shader(build(shaders::WHITTED_F32, shaders::WHITTED_PLAIN)).unwrap();
-    easel.canvas.replace_shader(build(shaders::WHITTED_F32_PACKETS, shaders::WHITTED_PLAIN_PACKETS)).unwrap();
+    easel.canvas.replace_shader(build(&shaders::WHITTED_F32, &shaders::WHITTED_PLAIN)).unwrap();
+    easel.canvas.replace_shader(build(&shaders::WHITTED_F32_PACKETS, &shaders::WHITTED_PLAIN_PACKETS)).unwrap();
     assert!(easel.draw(&scene).0 == plain);
     // It is kept while another kernel draws, and given up for a newer one.
     easel.canvas.use_kernel(Kernel::Course).unwrap();
     easel.draw(&scene);
     easel.canvas.use_kernel(ACCURATE).unwrap();
     assert!(easel.draw(&scene).0 == plain);
-    for own in [shaders::WHITTED_F32, shaders::WHITTED_F32_PACKETS] {
-        easel.canvas.replace_shader(own).unwrap();
+    for own in [&shaders::WHITTED_F32, &shaders::WHITTED_F32_PACKETS] {
+        easel.canvas.replace_shader(own.clone()).unwrap();
     }
     assert!(easel.draw(&scene).0 == accurate);
 }

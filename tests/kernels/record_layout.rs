@@ -122,8 +122,8 @@ fn every_field_comes_back_by_its_name() {
     resources.push(echo_resource.clone());
     let set = BindingSet::new(&pipeline, &resources).unwrap();
 
-    Commands::new(&device, "echo")
-        .unwrap()
+    let mut commands = Commands::new(&device, "echo").unwrap();
+    commands
         .run(|recorder| {
             recorder.make_ready(&picture, Use::ShaderWrite);
             recorder.dispatch(&pipeline, &set, bytes_of(&frame), [1, 1, 1]);
@@ -132,7 +132,8 @@ fn every_field_comes_back_by_its_name() {
         })
         .unwrap();
 
-    let echoed: &[f32] = cast_slice(echo.bytes().unwrap());
+    let idle = commands.idle().unwrap();
+    let echoed: &[f32] = cast_slice(echo.bytes(&idle).unwrap());
     let wrong: Vec<_> = (0..).zip(&values.given).zip(echoed).filter(|((_, given), back)| given != back).collect();
     assert!(wrong.is_empty(), "{} fields differ, the first: {:?}", wrong.len(), wrong.first());
     let beyond: &[u32] = cast_slice(&echoed[values.given.len()..]);

@@ -177,8 +177,8 @@ fn render_with_depths(device: &TestDevice, scene: &Scene, compiled: u32, pushed:
     let resources: Vec<_> = [picture.clone()].into_iter().chain(upload(device, &records).unwrap()).collect();
     let set = BindingSet::new(&pipeline, &resources).unwrap();
     let record = CoursePushConstants::new(scene, &scene.lights[0], records.counts(), pushed, width, height);
-    Commands::new(device, "depths")
-        .unwrap()
+    let mut commands = Commands::new(device, "depths").unwrap();
+    commands
         .run(|recorder| {
             recorder.make_ready(&picture, Use::ShaderWrite);
             let groups = [width.div_ceil(WORKGROUP[0]), height.div_ceil(WORKGROUP[1]), 1];
@@ -191,7 +191,8 @@ fn render_with_depths(device: &TestDevice, scene: &Scene, compiled: u32, pushed:
         })
         .unwrap();
     let mut frame = Frame::new(width, height).unwrap();
-    let rgba: &[[f32; 4]] = cast_slice(pixels.bytes().unwrap());
+    let idle = commands.idle().unwrap();
+    let rgba: &[[f32; 4]] = cast_slice(pixels.bytes(&idle).unwrap());
     for (target, &[r, g, b, _]) in frame.pixels_mut().iter_mut().zip(rgba) {
         *target = [r, g, b];
     }

@@ -270,8 +270,8 @@ fn upscale(device: &TestDevice, traced: &[[f32; 4]], traced_size: [u32; 2], size
     let bytes = u64::from(size[0] * size[1]) * PIXEL_BYTES;
     let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, bytes).unwrap());
     let read_back = Resource::from(&pixels);
-    Commands::new(device, "upscale")
-        .unwrap()
+    let mut commands = Commands::new(device, "upscale").unwrap();
+    commands
         .run(|recorder| {
             recorder.make_ready(&small, Use::CopyTarget);
             recorder.copy_to_image(&upload, &small, traced_size[0], traced_size[1]);
@@ -287,7 +287,7 @@ fn upscale(device: &TestDevice, traced: &[[f32; 4]], traced_size: [u32; 2], size
             Ok(())
         })
         .unwrap();
-    bytemuck::cast_slice(pixels.bytes().unwrap()).to_vec()
+    bytemuck::cast_slice(pixels.bytes(&commands.idle().unwrap()).unwrap()).to_vec()
 }
 
 #[test]

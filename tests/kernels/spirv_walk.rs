@@ -28,7 +28,7 @@ type Values = HashMap<Word, u32>;
 impl Kernel {
     pub fn of(shader: &Shader) -> Self {
         let words: Vec<u32> =
-            shader.spirv.chunks_exact(4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap())).collect();
+            shader.spirv().chunks_exact(4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap())).collect();
         let module = rspirv::dr::load_words(words).unwrap();
         let named = module.debug_names.iter().filter(|name| name.class.opcode == Op::Name);
         let names = named.map(|name| (name.operands[0].unwrap_id_ref(), name.operands[1].unwrap_literal_string()));

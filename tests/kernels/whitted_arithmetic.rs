@@ -33,15 +33,15 @@ fn on_device<T: bytemuck::Pod>(device: &TestDevice, shader: &Shader, pairs: &[T]
     let results = Arc::new(Buffer::new(device, "results", BufferKind::Storage, result_bytes).unwrap());
     let read_back = Resource::from(&results);
     let set = BindingSet::new(&pipeline, &[Resource::from(&Arc::new(input)), read_back.clone()]).unwrap();
-    Commands::new(device, "exact")
-        .unwrap()
+    let mut commands = Commands::new(device, "exact").unwrap();
+    commands
         .run(|recorder| {
             recorder.dispatch(&pipeline, &set, &[], [(pairs.len() / 8).div_ceil(64) as u32, 1, 1]);
             recorder.make_ready(&read_back, Use::HostRead);
             Ok(())
         })
         .unwrap();
-    cast_slice(results.bytes().unwrap()).to_vec()
+    cast_slice(results.bytes(&commands.idle().unwrap()).unwrap()).to_vec()
 }
 
 /// Numbers of both signs over many magnitudes, four to a row of which three count.
@@ -144,7 +144,7 @@ struct Instruction {
 }
 
 fn instructions(shader: &Shader) -> Vec<Instruction> {
-    let words = shader.spirv.chunks_exact(4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap()));
+    let words = shader.spirv().chunks_exact(4).map(|bytes| u32::from_le_bytes(bytes.try_into().unwrap()));
     let words: Vec<u32> = words.collect();
     assert_eq!(words[0], spirv::MAGIC);
     let mut rest = &words[5..];
@@ -222,7 +222,7 @@ fn every_function_of_the_kernels_that_makes_sums_and_products_exact_has_no_contr
         let protected = without_contraction(&code);
         let name_of = |id: u32| {
             let name = code.iter().find(|i| i.opcode == spirv::NAME && i.words[0] == id);
-            let bytes = name.map(|name| bytemuck::cast_slice::<u32, u8>(&name.words[1..]).to_vec()).unwrap_or_default();
+            let bytes = name.map(|name| cast_slice::<u32, u8>(&name.words[1..]).to_vec()).unwrap_or_default();
             String::from_utf8_lossy(&bytes).into_owned()
         };
         let mut found = HashSet::new();

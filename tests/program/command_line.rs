@@ -108,9 +108,9 @@ fn the_reference_draws_without_a_device_and_says_so() {
     command.env("VK_DRIVER_FILES", "/nonexistent").env("VK_ICD_FILENAMES", "/nonexistent");
     let run = Run::of(command.output().unwrap());
     assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""));
-    let report: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
+    let report: Value = serde_json::from_str(&run.stdout).unwrap();
     assert_eq!((&report["kernel"], &report["precision"]), (&"reference".into(), &"f64".into()));
-    assert_eq!((&report["device"], &report["gpu_time_ns"]), (&"CPU".into(), &serde_json::Value::Null));
+    assert_eq!((&report["device"], &report["gpu_time_ns"]), (&"CPU".into(), &Value::Null));
     assert!(report["samples_ns"].as_array().unwrap().is_empty());
     let frame = Frame::load(&place.path("x.exr")).unwrap();
     let background = frame.pixels()[0];
@@ -596,7 +596,7 @@ fn stability_prints_a_row_a_case_and_fails_only_for_the_accurate_kernel() {
     }
     let failed = cases.iter().filter(|case| case["pass"] == false).count();
     assert!(failed > 20, "plain quadratics fail much, and that is no failure of the program");
-    assert!(zerkalo::frame::Frame::load(&place.path("sheet.png")).is_ok());
+    assert!(Frame::load(&place.path("sheet.png")).is_ok());
 }
 
 #[test]

@@ -235,9 +235,9 @@ fn course_3_5_6_the_101st_primitive_warns() {
     assert_eq!(window.now().selected_name(), "Куб100");
     for again in ["the button", "Ctrl-D"] {
         if again == "Ctrl-D" {
-            window.key("ctrl+d")
+            window.key("ctrl+d");
         } else {
-            window.click("Добавить сферу")
+            window.click("Добавить сферу");
         }
         let warned = window.wait_until("a warning", |now| now.dialog.is_some());
         assert!(warned.says("Ошибка") && warned.says("Превышено максимальное число примитивов"), "by {again}");

@@ -26,7 +26,8 @@ impl Canvas {
             Ok(())
         })?;
         in_flight.forget(&resource);
-        let pixels: &[[f32; 4]] = bytemuck::cast_slice(buffer.bytes()?);
+        let idle = in_flight.idle()?;
+        let pixels: &[[f32; 4]] = bytemuck::cast_slice(buffer.bytes(&idle)?);
         for (target, &[r, g, b, _]) in frame.pixels_mut().iter_mut().zip(pixels) {
             *target = [r, g, b];
         }

@@ -7,7 +7,7 @@ use ash::{khr, vk};
 use super::swapchain_choices::{
     choose_alpha, choose_extent, choose_format, choose_image_count, choose_present_mode, copy_region, present_mode_name,
 };
-use crate::gpu::{Device, GpuError, Recorder, Resource, Semaphores, Surface, Use, with_device_list};
+use super::{Device, GpuError, InFlight, Recorder, Resource, Semaphores, Surface, Use, with_device_list};
 
 /// A window's images with what is needed to fill them: first the picture is copied in, then the widgets are drawn.
 pub struct Swapchain {
@@ -15,10 +15,10 @@ pub struct Swapchain {
     functions: khr::swapchain::Device,
     extent: vk::Extent2D,
     present_mode: vk::PresentModeKHR,
-    pub(super) render_pass: vk::RenderPass,
+    render_pass: vk::RenderPass,
     images: Vec<Image>,
     /// Signalled when an image may be written; by turns, as the submissions that wait for them.
-    acquired: [vk::Semaphore; 2],
+    acquired: [vk::Semaphore; InFlight::COUNT],
     next_acquired: usize,
     device: Arc<Device>,
     // Destroyed after the swapchain.
@@ -33,12 +33,21 @@ struct Image {
     filled: vk::Semaphore,
 }
 
-/// An image that may be written.
-#[derive(Debug, Clone, Copy)]
+/// An image that may be written, once.
+#[derive(Debug)]
 pub struct Acquired {
     index: u32,
     semaphore: vk::Semaphore,
 }
+
+/// An image of the window while the submission that fills it is recorded.
+pub struct WindowImage<'a> {
+    swapchain: &'a Swapchain,
+    image: &'a Image,
+}
+
+/// That an image has all that is to be shown.
+pub struct Filled(());
 
 /// Whether the window still goes with its swapchain.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -93,7 +102,7 @@ impl Swapchain {
             present_mode,
             render_pass: vk::RenderPass::null(),
             images: Vec::new(),
-            acquired: [vk::Semaphore::null(); 2],
+            acquired: [vk::Semaphore::null(); InFlight::COUNT],
             next_acquired: 0,
             device: device.clone(),
             _surface: surface.clone(),
@@ -153,10 +162,17 @@ impl Swapchain {
         present_mode_name(self.present_mode)
     }
 
+    /// For the widgets' renderer.
+    pub fn render_pass(&self) -> vk::RenderPass {
+        self.render_pass
+    }
+
     /// Asks for the next image; `Err(Fit)` inside when there is none to be had from this swapchain, or none yet.
     ///
-    /// The submission before the last must have ended: its semaphore is used again.
-    pub fn acquire(&mut self) -> Result<Result<Acquired, Fit>, GpuError> {
+    /// It is to be [shown](Swapchain::show) with the same submissions.
+    pub fn acquire(&mut self, in_flight: &mut InFlight) -> Result<Result<Acquired, Fit>, GpuError> {
+        // As many semaphores as places: the submission that waited for this one has ended.
+        in_flight.wait_for_place()?;
         let semaphore = self.acquired[self.next_acquired];
         // SAFETY: the semaphore is unsignalled, as its last wait has ended.
         let acquired =
@@ -171,26 +187,32 @@ impl Swapchain {
         }
     }
 
-    /// What the submission that fills the image waits for and signals.
-    pub(super) fn semaphores(&self, image: Acquired) -> Semaphores {
-        Semaphores {
-            wait: Some((image.semaphore, vk::PipelineStageFlags::TRANSFER)),
-            signal: Some(self.images[image.index as usize].filled),
-        }
+    /// Submits what fills the image, and shows it; `Err(Fit)` inside when the window did not take it.
+    pub fn show(
+        &self,
+        in_flight: &mut InFlight,
+        image: Acquired,
+        record: impl FnOnce(&mut Recorder, WindowImage) -> Result<Filled, GpuError>,
+    ) -> Result<Result<Fit, Fit>, GpuError> {
+        let target = &self.images[image.index as usize];
+        let semaphores =
+            Semaphores { wait: Some((image.semaphore, vk::PipelineStageFlags::TRANSFER)), signal: Some(target.filled) };
+        in_flight.submit(semaphores, |recorder| {
+            let Filled(()) = record(recorder, WindowImage { swapchain: self, image: target })?;
+            Ok(())
+        })?;
+        self.present(image)
     }
 
-    /// Records the filling of the image: `background`, upon it the picture, each of its pixels on one of the window's
-    /// from `corner` on, upon that what `draw_widgets` draws.
-    pub(super) fn record(
+    fn record(
         &self,
         recorder: &mut Recorder,
-        image: Acquired,
+        image: &Image,
         background: [f32; 4],
         picture: &Resource,
         corner: [u32; 2],
         draw_widgets: impl FnOnce(vk::CommandBuffer),
     ) -> Result<(), GpuError> {
-        let image = &self.images[image.index as usize];
         recorder.labelled("copy picture", |recorder| {
             recorder.make_ready(picture, Use::CopySource);
             recorder.note_use(picture, "show", Use::CopySource);
@@ -259,14 +281,13 @@ impl Swapchain {
         }
     }
 
-    /// Shows the image once it is filled; `Err(Fit)` inside when the window did not take it.
-    pub fn present(&self, image: Acquired) -> Result<Result<Fit, Fit>, GpuError> {
+    fn present(&self, image: Acquired) -> Result<Result<Fit, Fit>, GpuError> {
         let filled = [self.images[image.index as usize].filled];
         let (swapchains, indices) = ([self.raw], [image.index]);
         let info =
             vk::PresentInfoKHR::default().wait_semaphores(&filled).swapchains(&swapchains).image_indices(&indices);
-        // SAFETY: the image was acquired, and a submission signals the semaphore.
-        match unsafe { self.functions.queue_present(self.device.queue, &info) } {
+        // SAFETY: the image was acquired, a submission signals the semaphore, and no other thread uses the queue.
+        match self.device.with_queue(|queue| unsafe { self.functions.queue_present(queue, &info) }) {
             Ok(false) => Ok(Ok(Fit::Good)),
             Ok(true) => Ok(Ok(Fit::Outdated)),
             Err(result) => {
@@ -276,13 +297,30 @@ impl Swapchain {
     }
 }
 
+impl WindowImage<'_> {
+    /// Records the filling of the image: `background`, upon it the picture, each of its pixels on one of the window's
+    /// from `corner` on, upon that what `draw_widgets` draws.
+    pub fn fill(
+        self,
+        recorder: &mut Recorder,
+        background: [f32; 4],
+        picture: &Resource,
+        corner: [u32; 2],
+        draw_widgets: impl FnOnce(vk::CommandBuffer),
+    ) -> Result<Filled, GpuError> {
+        self.swapchain.record(recorder, self.image, background, picture, corner, draw_widgets)?;
+        Ok(Filled(()))
+    }
+}
+
 impl Drop for Swapchain {
     fn drop(&mut self) {
         let raw = &self.device.raw;
-        // SAFETY: waiting ends all that is submitted and shown; null handles are ignored.
+        // On a lost device nothing runs, and there is nobody to tell.
+        // SAFETY: the device is alive; no other thread uses the queue.
+        let _ = self.device.with_queue(|queue| unsafe { raw.queue_wait_idle(queue) });
+        // SAFETY: all that was submitted and shown has ended; null handles are ignored.
         unsafe {
-            // On a lost device nothing runs, and there is nobody to tell.
-            let _ = raw.queue_wait_idle(self.device.queue);
             for image in &self.images {
                 raw.destroy_framebuffer(image.framebuffer, None);
                 raw.destroy_image_view(image.view, None);
