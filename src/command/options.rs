@@ -6,7 +6,7 @@ use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser
 use crate::algorithm::{Algorithm, Description};
 use crate::frame::Frame;
 use crate::scene::DEPTH_LIMIT;
-use crate::tracer::sampling::{MAX_SAMPLES, Sampling};
+use crate::settings::sampling::{MAX_SAMPLES, Sampling};
 
 /// Options that do not go together.
 #[derive(Debug, thiserror::Error)]

@@ -4,10 +4,12 @@ use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
 
-use super::options::{parse_depth, parse_error, parse_size};
+use super::options::{parse_algorithm, parse_depth, parse_error, parse_size};
 use super::{DeviceArgs, print_json, print_line, scene_named};
+use crate::algorithm::{Algorithm, Description, Precision};
 use crate::gpu::{self, DeviceDescription, GpuError};
-use crate::plan::{Approximations, Bounds, Limits, Line, Plan, Precision, Wishes};
+use crate::plan::{Approximations, Bounds, Limits, Line, Plan};
+use crate::settings::RenderSettings;
 use crate::tracer::limits_of;
 
 /// Tell what will run for a scene, what is left out and why, and what that saves
@@ -18,6 +20,9 @@ pub struct PlanArgs {
     /// Largest allowed change of any linear channel, such as 0.002 or 1/510; 0 is exact
     #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error, allow_hyphen_values = true)]
     pub error: f64,
+    /// Which algorithm is to draw
+    #[arg(long, value_parser = parse_algorithm(Description::is_on_device), default_value = "whitted")]
+    pub algorithm: Algorithm,
     /// What the kernel calculates in, in place of what the plan chooses
     #[arg(long, value_enum)]
     pub precision: Option<Precision>,
@@ -61,8 +66,14 @@ pub fn run(args: &PlanArgs) -> Result<()> {
     let device = device(args)?;
     let limits = device.as_ref().map_or(Limits::PROMISED, limits_of);
     let (width, height) = args.size;
-    let wishes = Wishes { precision: args.precision, max_depth: args.max_depth, error: args.error, width, height };
-    let plan = Plan::for_scene(&scene, &wishes, &limits)?.with_f32_tried(&scene, &wishes);
+    let settings = RenderSettings {
+        algorithm: args.algorithm,
+        precision: args.precision,
+        max_depth: args.max_depth,
+        error: args.error,
+        ..RenderSettings::default()
+    };
+    let plan = Plan::for_scene(&scene, &settings, [width, height], &limits)?.with_f32_tried(&scene);
     let device = device.as_ref().map(|device| device.name.as_str());
     if args.json {
         return print_json(&Report {

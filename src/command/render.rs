@@ -16,11 +16,12 @@ use crate::algorithm::{Algorithm, Precision};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Messages};
 use crate::measure::median;
+use crate::plan::Plan;
 use crate::reference::{self, RenderError};
 use crate::scene::Scene;
-use crate::settings::{Contradiction, Drawing, RenderSettings};
-use crate::tracer::sampling::Sampling;
-use crate::tracer::{Tracer, TracerError, limits_of};
+use crate::settings::sampling::Sampling;
+use crate::settings::{Contradiction, RenderSettings};
+use crate::tracer::{Settings, Tracer, TracerError, limits_of};
 use crate::validation::Remarked;
 
 /// Render a scene into a PNG (display values) or EXR (linear values) file
@@ -168,7 +169,8 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Resu
 
     let (width, height) = args.size;
     let limits = limits_of(device.description());
-    let (Drawing { settings, error_bound }, warning) = setting.told_drawing(scene, &limits, width, height)?;
+    let plan = Plan::for_scene(scene, setting, [width, height], &limits)?.with_f32_tried(scene);
+    let (settings, error_bound, warning) = (Settings::planned(&plan), plan.bounds.total(), plan.warning());
     if let Some(warning) = &warning {
         eprintln!("warning: {warning}");
     }
@@ -181,7 +183,7 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Resu
     }
     let precision = settings.kernel.precision();
     let algorithm = setting.algorithm;
-    let sampling = Sampling { samples: settings.samples, scale: settings.scale };
+    let sampling = setting.sampling();
     Ok(Rendered {
         frame,
         algorithm,

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use ash::{khr, vk};
 
 use super::swapchain_choices::{
-    choose_alpha, choose_extent, choose_format, choose_image_count, choose_present_mode, copy_region, present_mode_name,
+    Fit, choose_alpha, choose_extent, choose_format, choose_image_count, choose_present_mode, copy_region,
+    present_mode_name, unfit,
 };
 use super::{Device, GpuError, InFlight, Recorder, Resource, Semaphores, Surface, Use, with_device_list};
 
@@ -48,16 +49,6 @@ pub struct WindowImage<'a> {
 
 /// That an image has all that is to be shown.
 pub struct Filled(());
-
-/// Whether the window still goes with its swapchain.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Fit {
-    Good,
-    /// A new swapchain is needed.
-    Outdated,
-    /// A new surface is needed.
-    SurfaceLost,
-}
 
 impl Swapchain {
     /// Images of the window's size, `wanted` where the window leaves that to us, pixels; `None` while it has none, as
@@ -157,7 +148,7 @@ impl Swapchain {
         self.extent
     }
 
-    /// Vulkan's word for how images are shown.
+    /// How images are shown.
     pub fn present_mode(&self) -> &'static str {
         present_mode_name(self.present_mode)
     }
@@ -351,15 +342,6 @@ const COLOR: vk::ImageSubresourceRange = vk::ImageSubresourceRange {
     base_array_layer: 0,
     layer_count: 1,
 };
-
-fn unfit(result: vk::Result) -> Option<Fit> {
-    match result {
-        vk::Result::ERROR_OUT_OF_DATE_KHR => Some(Fit::Outdated),
-        vk::Result::ERROR_SURFACE_LOST_KHR => Some(Fit::SurfaceLost),
-        vk::Result::TIMEOUT | vk::Result::NOT_READY => Some(Fit::Good),
-        _ => None,
-    }
-}
 
 fn create_semaphore(device: &Device, name: &str) -> Result<vk::Semaphore, GpuError> {
     // SAFETY: the device is alive.

@@ -2,6 +2,26 @@
 
 use ash::vk;
 
+/// Whether the window still goes with its swapchain.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fit {
+    Good,
+    /// A new swapchain is needed.
+    Outdated,
+    /// A new surface is needed.
+    SurfaceLost,
+}
+
+/// What an answer says of that; `None` for a failure.
+pub(super) fn unfit(result: vk::Result) -> Option<Fit> {
+    match result {
+        vk::Result::ERROR_OUT_OF_DATE_KHR => Some(Fit::Outdated),
+        vk::Result::ERROR_SURFACE_LOST_KHR => Some(Fit::SurfaceLost),
+        vk::Result::TIMEOUT | vk::Result::NOT_READY => Some(Fit::Good),
+        _ => None,
+    }
+}
+
 pub(super) fn choose_extent(capabilities: &vk::SurfaceCapabilitiesKHR, wanted: [u32; 2]) -> vk::Extent2D {
     // The specification's word for «as you like».
     if capabilities.current_extent.width != u32::MAX {

@@ -8,10 +8,10 @@ use super::{ComparisonError, ErrorDomain, ImageError, TimedTracer, error_map, im
 use crate::algorithm::Algorithm;
 use crate::frame::{Frame, FrameError};
 use crate::gpu::Device;
-use crate::plan::{PlanError, Precision};
+use crate::plan::{Plan, PlanError, Precision};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
-use crate::tracer::{TracerError, limits_of};
+use crate::tracer::{Settings, TracerError, limits_of};
 
 /// A scene by several kernels.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,8 +75,8 @@ pub fn scene_maps(
     let (width, height) = (truth.frame.width(), truth.frame.height());
     let limits = limits_of(device.description());
     let mut draw = |setting: &RenderSettings| -> Result<Frame, SceneMapsError> {
-        let drawing = setting.drawing(scene, &limits, width, height)?;
-        let mut tracer = TimedTracer::new(device, scene, &drawing.settings)?;
+        let plan = Plan::for_scene(scene, setting, [width, height], &limits)?;
+        let mut tracer = TimedTracer::new(device, scene, &Settings::planned(&plan))?;
         tracer.draw(keep_going)?;
         Ok(tracer.frame)
     };

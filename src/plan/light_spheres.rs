@@ -6,7 +6,7 @@ use std::ops::Range;
 use glam::{DVec2, DVec3};
 
 use super::solids::unit;
-use super::{Decision, Reason, Wishes};
+use super::{Decision, Reason};
 use crate::scene::{Camera, Light, Projection, Scene, farthest_coordinate};
 
 /// What kernels may be off in a direction or a place, relative to distances between the camera, the light and the solids,
@@ -14,9 +14,9 @@ use crate::scene::{Camera, Light, Projection, Scene, farthest_coordinate};
 const SURELY: f64 = 1e-5;
 
 /// How many may be seen.
-pub(super) fn decide(scene: &Scene, wishes: &Wishes) -> Decision<usize> {
+pub(super) fn decide(scene: &Scene, [width, height]: [u32; 2]) -> Decision<usize> {
     let lights = scene.lights.len();
-    let aspect = f64::from(wishes.width) / f64::from(wishes.height);
+    let aspect = f64::from(width) / f64::from(height);
     // No distance is larger than its largest coordinate by more than the square root of three.
     let farthest = 2.0 * farthest_coordinate(&scene.primitives, scene.camera.position);
     let seen = |light: &&Light| Area::of_ball(light, &scene.camera, aspect, farthest).is_some();

@@ -1,13 +1,14 @@
 //! What a scene requires of a kernel, and nothing more; why; and what an allowed error buys on top. Pure: no Vulkan.
 //!
 //! ```
-//! use zerkalo::plan::{Limits, Plan, Wishes};
+//! use zerkalo::plan::{Limits, Plan};
 //! use zerkalo::scene::gallery;
+//! use zerkalo::settings::RenderSettings;
 //!
 //! let scene = gallery::scene("corridor").expect("a scene of the gallery");
-//! let wishes = Wishes { error: 1.0 / 510.0, ..Wishes::exact(1621, 701) };
-//! let plan = Plan::for_scene(&scene, &wishes, &Limits::PROMISED).expect("it fits every device");
-//! assert!(plan.bounds.total() <= wishes.error);
+//! let settings = RenderSettings { error: 1.0 / 510.0, ..RenderSettings::default() };
+//! let plan = Plan::for_scene(&scene, &settings, [1621, 701], &Limits::PROMISED).expect("it fits every device");
+//! assert!(plan.bounds.total() <= settings.error);
 //! ```
 
 mod arrays;
@@ -35,32 +36,14 @@ pub use traversal_cost::{CPU_MAX_ITERATIONS, MOST_PIXELS, TraversalCost};
 use glam::DVec3;
 use thiserror::Error;
 
-use crate::scene::{DEPTH_LIMIT, Scene, SolidKind};
+use crate::algorithm::Kernel;
+use crate::scene::{Scene, SolidKind};
+use crate::settings::{Contradiction, RenderSettings};
 use arrays::check_arrays;
 use budget::{Spent, Transport, spend};
 use features::Kept;
 use solids::is_lone_and_seen_from_outside;
 pub(crate) use solids::is_rotated;
-
-/// What is asked for besides the scene.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Wishes {
-    pub precision: Option<Precision>,
-    /// In place of the scene's.
-    pub max_depth: Option<u32>,
-    /// Largest allowed change of any linear channel by what is left out; 0: nothing is.
-    pub error: f64,
-    /// Pixels.
-    pub width: u32,
-    pub height: u32,
-}
-
-impl Wishes {
-    /// An exact picture, all else as the scene and the program have it.
-    pub fn exact(width: u32, height: u32) -> Self {
-        Self { precision: None, max_depth: None, error: 0.0, width, height }
-    }
-}
 
 /// What a device can do.
 #[derive(Debug, Clone, PartialEq)]
@@ -83,12 +66,12 @@ impl Limits {
 /// Why there is no plan. Each is one line, and the input's fault.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanError {
-    #[error("the allowed error is {0}: it must be a finite number, 0 or greater")]
-    Error(f64),
+    #[error(transparent)]
+    Settings(#[from] Contradiction),
     #[error("a picture of {width}x{height} pixels has none")]
     Size { width: u32, height: u32 },
-    #[error("{0} generations: there must be 1 to {DEPTH_LIMIT} of them")]
-    Depth(u32),
+    #[error("the {0} algorithm runs on the CPU: there is nothing to be planned for a device")]
+    NotOnDevice(&'static str),
     #[error("the device cannot calculate in f64 (it lacks shaderFloat64); --precision f32 works there")]
     NoFloat64,
     #[error("the scene is too large: its {array} take {bytes} B in {}, and a kernel sees {limit} B there", .precision.name())]
@@ -136,7 +119,13 @@ impl Structure {
         if levels == 0 { Self::None } else { Self::Hierarchy { levels } }
     }
 
-    fn decide(counts: [usize; 4]) -> Decision<[Self; 4]> {
+    fn decide(counts: [usize; 4], settings: &RenderSettings) -> Decision<[Self; 4]> {
+        if !settings.algorithm.description().has_hierarchy {
+            return Decision { choice: [Self::None; 4], reason: Reason::NoHierarchy };
+        }
+        if !settings.boxes {
+            return Decision { choice: [Self::None; 4], reason: Reason::Asked };
+        }
         let most = counts.into_iter().max().unwrap_or_default();
         let reason = if most > Self::BREAK_EVEN {
             Reason::ManySolids { solids: most, break_even: Self::BREAK_EVEN }
@@ -150,6 +139,12 @@ impl Structure {
 /// What a kernel has to do for a scene. What is false, 0 or 1 here can be compiled out.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Plan {
+    /// What was asked for.
+    pub settings: RenderSettings,
+    /// Pixels along x and y.
+    pub size: [u32; 2],
+    /// The algorithm in the precision that was chosen.
+    pub kernel: Kernel,
     /// Solids of each kind, in the order of [`SolidKind::ALL`], without those too small for the precision.
     pub counts: [usize; 4],
     /// Of the scene, dark ones too.
@@ -192,18 +187,29 @@ impl Plan {
     /// For a scene that [is valid](Scene::validate).
     ///
     /// # Errors
-    /// Wishes that make no sense, or that the device cannot fulfil.
-    pub fn for_scene(scene: &Scene, wishes: &Wishes, limits: &Limits) -> Result<Self, PlanError> {
-        wishes.check()?;
+    /// Settings that make no sense, or that the device cannot fulfil.
+    pub fn for_scene(
+        scene: &Scene,
+        settings: &RenderSettings,
+        size: [u32; 2],
+        limits: &Limits,
+    ) -> Result<Self, PlanError> {
+        settings.check()?;
+        if size.contains(&0) {
+            let [width, height] = size;
+            return Err(PlanError::Size { width, height });
+        }
+        let row = settings.algorithm.description();
         let transport = Transport::of(scene);
         let is_lone = is_lone_and_seen_from_outside(scene);
-        let (mut precision, rounding) = precision::choose(scene, wishes, limits)?;
+        let (mut precision, rounding) = precision::choose(scene, settings, size, limits)?;
         // A wrong picture with a word is better than none.
         if matches!(precision.reason, Reason::RoundingSpoils { .. } | Reason::RoundingIsUnknown { .. })
             && check_arrays(scene, Kept::of(scene, precision.choice).counts, precision.choice, limits).is_err()
         {
             precision.choice = Precision::F32;
         }
+        let kernel = settings.algorithm.kernel(precision.choice).ok_or(PlanError::NotOnDevice(row.name))?;
         let kept = Kept::of(scene, precision.choice);
         let counts = kept.counts;
         check_arrays(scene, counts, precision.choice, limits)?;
@@ -212,12 +218,12 @@ impl Plan {
         let is_lit = lights.choice > 0;
         let shadows = shadows(scene, is_lit, is_lone);
         let highlights = highlights(&transport, is_lit);
-        let generations = generations(scene, wishes, &transport, is_lone);
+        let generations = generations(scene, settings, &transport, is_lone);
         let spent =
-            spend(&transport, wishes.error, generations.choice, precision.choice, shadows.choice, highlights.choice);
+            spend(&transport, settings.error, generations.choice, precision.choice, shadows.choice, highlights.choice);
         let Spent { approximations, bounds, .. } = spent;
         let generations = approximated_generations(generations, &spent);
-        let light_spheres = light_spheres::decide(scene, wishes);
+        let light_spheres = light_spheres::decide(scene, size);
         let approximations = Approximations {
             light_spheres: light_spheres.choice > 0,
             lights: is_lit,
@@ -226,6 +232,9 @@ impl Plan {
             ..approximations
         };
         Ok(Self {
+            settings: *settings,
+            size,
+            kernel,
             counts,
             axis_aligned_boxes: axis_aligned_boxes(kept),
             all_lights: scene.lights.len(),
@@ -233,26 +242,33 @@ impl Plan {
             lights,
             shadows,
             highlights: approximated_highlights(highlights, &spent),
-            close_up: rounding::close_up_ratio(scene, precision.choice),
+            close_up: rounding::close_up_ratio(scene, precision.choice).filter(|_| row.is_accurate),
             precision,
             rounding,
-            structures: Structure::decide(counts),
+            structures: Structure::decide(counts, settings),
             workgroup: Decision { choice: WORKGROUP, reason: Reason::SquareWorkgroup },
             pixels: traversal_cost::decide(scene, generations.choice, limits),
             tile_side: tiling::decide(scene, generations.choice, limits),
             generations,
-            error: wishes.error,
+            error: settings.error,
             approximations,
             bounds,
         })
     }
 
+    /// Whether rays look at every solid where boxes around them would be quicker.
+    pub fn is_without_boxes(&self) -> bool {
+        !self.settings.boxes && self.counts.iter().any(|&count| Structure::over(count) != Structure::None)
+    }
+
     /// With [`Plan::rounding`] looked at where `f32` was asked for, too, which may take a second: for those who tell the
-    /// [warning](Plan::warning). To be called with what the plan was made for.
-    pub fn with_f32_tried(mut self, scene: &Scene, wishes: &Wishes) -> Self {
-        if self.precision.choice == Precision::F32 && self.rounding.is_none() {
-            let shift_pixels = precision::silhouette_shift_pixels(scene, wishes, Precision::F32);
-            self.rounding = Some(precision::rounding_to_f32(scene, wishes, shift_pixels));
+    /// [warning](Plan::warning). To be called with the scene that the plan was made for. Of what is no accurate algorithm
+    /// nothing is told: it is there to show what rounding does.
+    pub fn with_f32_tried(mut self, scene: &Scene) -> Self {
+        let is_accurate = self.settings.algorithm.description().is_accurate;
+        if is_accurate && self.precision.choice == Precision::F32 && self.rounding.is_none() {
+            let shift_pixels = precision::silhouette_shift_pixels(scene, self.size, Precision::F32);
+            self.rounding = Some(precision::rounding_to_f32(scene, &self.settings, self.size, shift_pixels));
         }
         self
     }
@@ -279,22 +295,6 @@ impl Plan {
 
 /// As many pixels as a GPU's wave has lanes, or twice as many, in the most compact shape.
 const WORKGROUP: [u32; 2] = [8, 8];
-
-impl Wishes {
-    fn check(&self) -> Result<(), PlanError> {
-        let &Self { max_depth, error, width, height, .. } = self;
-        if !(error.is_finite() && error >= 0.0) {
-            return Err(PlanError::Error(error));
-        }
-        if width == 0 || height == 0 {
-            return Err(PlanError::Size { width, height });
-        }
-        match max_depth {
-            Some(depth) if !(1..=DEPTH_LIMIT).contains(&depth) => Err(PlanError::Depth(depth)),
-            _ => Ok(()),
-        }
-    }
-}
 
 fn axis_aligned_boxes(kept: Kept) -> Decision<bool> {
     let boxes = kept.counts[SolidKind::Box as usize];
@@ -350,11 +350,14 @@ fn approximated_highlights(exact: Decision<bool>, spent: &Spent) -> Decision<boo
 }
 
 /// Without an error.
-fn generations(scene: &Scene, wishes: &Wishes, transport: &Transport, is_lone: bool) -> Decision<u32> {
-    let asked = match wishes.max_depth {
+fn generations(scene: &Scene, settings: &RenderSettings, transport: &Transport, is_lone: bool) -> Decision<u32> {
+    let asked = match settings.max_depth {
         Some(depth) => Decision { choice: depth, reason: Reason::Asked },
         None => Decision { choice: scene.max_depth, reason: Reason::SceneSays },
     };
+    if !settings.algorithm.description().approximates {
+        return asked;
+    }
     let (choice, reason) = if scene.primitives.is_empty() {
         (1, Reason::NoSolids)
     } else if transport.largest_specular() == 0.0 {

@@ -3,10 +3,11 @@
 use glam::DVec3;
 
 use super::rounding::{self, Rounding, is_close_up};
-use super::solids::{outside_by, size};
-use super::{Decision, Limits, PlanError, Reason, Wishes};
+use super::solids::{self, outside_by};
+use super::{Decision, Limits, PlanError, Reason};
 use crate::algorithm::Precision;
 use crate::scene::{Camera, Projection, Scene, Solid};
+use crate::settings::RenderSettings;
 
 /// Silhouettes that move by less change only pixels that they run through.
 const LARGEST_SHIFT_PIXELS: f64 = 0.5;
@@ -15,23 +16,27 @@ const LARGEST_SHIFT_PIXELS: f64 = 0.5;
 /// with what rounding to f32 does, where that was looked at.
 pub(super) fn choose(
     scene: &Scene,
-    wishes: &Wishes,
+    settings: &RenderSettings,
+    size: [u32; 2],
     limits: &Limits,
 ) -> Result<(Decision<Precision>, Option<Rounding>), PlanError> {
     let decide = |choice, reason| Decision { choice, reason };
-    match wishes.precision {
+    if let [only] = *settings.algorithm.description().precisions {
+        return Ok((decide(only, Reason::OnlyOne), None));
+    }
+    match settings.precision {
         Some(Precision::F64) if !limits.float64 => return Err(PlanError::NoFloat64),
         Some(precision) => return Ok((decide(precision, Reason::Asked), None)),
         None => {}
     }
-    let shift_pixels = silhouette_shift_pixels(scene, wishes, Precision::F32);
+    let shift_pixels = silhouette_shift_pixels(scene, size, Precision::F32);
     let tolerance = Precision::F32.rounding_tolerance() * brightest_source(scene).max(1.0);
-    let rounding = rounding_to_f32(scene, wishes, shift_pixels);
-    let may_err = wishes.error > 0.0;
+    let rounding = rounding_to_f32(scene, settings, size, shift_pixels);
+    let may_err = settings.error > 0.0;
     let (choice, reason) = match rounding {
         Rounding::Harmful { wrong, tried, cause } => (Precision::F64, Reason::RoundingSpoils { wrong, tried, cause }),
         Rounding::Unknown { ratio } => (Precision::F64, Reason::RoundingIsUnknown { ratio }),
-        _ if may_err && wishes.error < tolerance => (Precision::F64, Reason::RoundingExceedsError { tolerance }),
+        _ if may_err && settings.error < tolerance => (Precision::F64, Reason::RoundingExceedsError { tolerance }),
         _ if may_err && shift_pixels > LARGEST_SHIFT_PIXELS => {
             (Precision::F64, Reason::RoundingMovesSilhouettes { shift_pixels })
         }
@@ -49,10 +54,9 @@ pub(super) fn choose(
     Ok((decision, Some(rounding)))
 }
 
-/// What it does to the picture that is wished for, silhouettes of which it moves by so much.
-pub(super) fn rounding_to_f32(scene: &Scene, wishes: &Wishes, shift_pixels: f64) -> Rounding {
-    let &Wishes { max_depth, width, height, .. } = wishes;
-    rounding::of_f32(scene, max_depth.unwrap_or(scene.max_depth), [width, height], shift_pixels)
+/// What it does to the picture that is asked for, silhouettes of which it moves by so much.
+pub(super) fn rounding_to_f32(scene: &Scene, settings: &RenderSettings, size: [u32; 2], shift_pixels: f64) -> Rounding {
+    rounding::of_f32(scene, settings.max_depth.unwrap_or(scene.max_depth), size, shift_pixels)
 }
 
 /// The largest channel of the background and of the lights.
@@ -70,11 +74,12 @@ pub(super) fn brightest_source(scene: &Scene) -> f64 {
 /// In a close-up the size's part is taken by the way from the solid's anchor. That is the point nearest to the camera, so
 /// that from a silhouette at a distance D it is at most 2D, and the place of the anchor at most D; of a cone the anchor is
 /// the apex.
-pub(super) fn silhouette_shift_pixels(scene: &Scene, wishes: &Wishes, precision: Precision) -> f64 {
+pub(super) fn silhouette_shift_pixels(scene: &Scene, size: [u32; 2], precision: Precision) -> f64 {
+    let [width, height] = size.map(f64::from);
     let u = precision.unit_roundoff();
     let Camera { position, vertical_fov_degrees, projection, .. } = scene.camera;
     let half_height = (vertical_fov_degrees.to_radians() / 2.0).tan();
-    let half_width = half_height * f64::from(wishes.width) / f64::from(wishes.height);
+    let half_width = half_height * width / height;
     // The window's farthest corner, and its height, in half extents.
     let (corner, window_height) = match projection {
         Projection::Centered => (1.0, 2.0),
@@ -82,12 +87,12 @@ pub(super) fn silhouette_shift_pixels(scene: &Scene, wishes: &Wishes, precision:
     };
     let corner = (corner * half_width).hypot(corner * half_height);
     // A turn by dθ moves an image by dθ·(1 + r²), r being its distance from the axis in the plane at distance 1.
-    let pixels_per_radian = (1.0 + corner * corner) * f64::from(wishes.height) / (window_height * half_height);
+    let pixels_per_radian = (1.0 + corner * corner) * height / (window_height * half_height);
     let is_close_up = is_close_up(scene, precision);
     let solid_shift = |solid: &Solid| {
         let size = match solid {
             Solid::Sphere { .. } | Solid::Box { .. } | Solid::Cylinder { .. } if is_close_up => return 9.0 * 2.0 + 1.0,
-            _ => size(solid),
+            _ => solids::size(solid),
         };
         let from_camera = (solid.position() - position).length();
         let distance = nearest_silhouette(solid, position);

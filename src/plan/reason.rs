@@ -13,6 +13,9 @@ use crate::scene::SolidKind;
 pub enum Reason {
     /// It is the user's wish.
     Asked,
+    /// The algorithm has no other.
+    OnlyOne,
+    NoHierarchy,
     SceneSays,
     NoSolids,
     NoBoxes,
@@ -116,6 +119,8 @@ impl fmt::Display for Reason {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Asked => write!(f, "as asked for"),
+            Self::OnlyOne => write!(f, "the algorithm has no other"),
+            Self::NoHierarchy => write!(f, "the algorithm looks at every solid"),
             Self::SceneSays => write!(f, "as the scene says"),
             Self::NoSolids => write!(f, "there is no solid to be hit"),
             Self::NoBoxes => write!(f, "there are no boxes"),

@@ -1,18 +1,17 @@
 //! Everything that trades time for accuracy, in a user's words: one setting for any scene, kept in a file.
 
 mod file;
+pub mod sampling;
 
 use std::fmt;
 
 use serde::Serialize;
 
 pub use file::SettingsError;
+use sampling::Sampling;
 
 use crate::algorithm::{Algorithm, Description, Precision};
-use crate::plan::{Limits, Plan, PlanError, Structure, Wishes};
-use crate::scene::{DEPTH_LIMIT, Scene};
-use crate::tracer::Settings;
-use crate::tracer::sampling::Sampling;
+use crate::scene::DEPTH_LIMIT;
 
 /// How a picture is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -48,78 +47,17 @@ impl Default for RenderSettings {
     }
 }
 
-/// A setting for one scene on one device.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Drawing {
-    pub settings: Settings,
-    /// No linear channel is changed more by what was left out for [`RenderSettings::error`]: proven, rounding not in it.
-    pub error_bound: f64,
-}
-
 /// A field that does not go with the others, or has an impossible value.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{what}")]
 pub struct Contradiction {
     pub field: &'static str,
     pub what: String,
 }
 
 impl RenderSettings {
-    /// What it comes to for a scene that [is valid](Scene::validate).
-    ///
-    /// # Errors
-    /// The setting is impossible, or not for this device.
-    pub fn drawing(&self, scene: &Scene, limits: &Limits, width: u32, height: u32) -> Result<Drawing, PlanError> {
-        Ok(self.drawn_by(self.plan(scene, limits, width, height)?.as_ref(), width, height))
-    }
-
-    /// As [`RenderSettings::drawing`], with what is to be told of the picture, see [`Plan::warning`].
-    ///
-    /// # Errors
-    /// The setting is impossible, or not for this device.
-    pub fn told_drawing(
-        &self,
-        scene: &Scene,
-        limits: &Limits,
-        width: u32,
-        height: u32,
-    ) -> Result<(Drawing, Option<String>), PlanError> {
-        let mut plan = self.plan(scene, limits, width, height)?;
-        // Others are there to show what rounding does.
-        if self.algorithm.description().is_accurate {
-            plan = plan.map(|plan| plan.with_f32_tried(scene, &self.wishes(width, height)));
-        }
-        let warning = plan.as_ref().and_then(Plan::warning);
-        Ok((self.drawn_by(plan.as_ref(), width, height), warning))
-    }
-
-    fn wishes(&self, width: u32, height: u32) -> Wishes {
-        let &Self { algorithm, precision, max_depth, error, .. } = self;
-        let precision = match *algorithm.description().precisions {
-            [only] => Some(only),
-            _ => precision,
-        };
-        Wishes { precision, max_depth, error, width, height }
-    }
-
-    /// None for an algorithm that leaves out nothing: it is always the same.
-    fn plan(&self, scene: &Scene, limits: &Limits, width: u32, height: u32) -> Result<Option<Plan>, PlanError> {
-        if !self.algorithm.description().approximates {
-            return Ok(None);
-        }
-        Plan::for_scene(scene, &self.wishes(width, height), limits).map(Some)
-    }
-
-    fn drawn_by(&self, plan: Option<&Plan>, width: u32, height: u32) -> Drawing {
-        let &Self { algorithm, max_depth, boxes, samples, scale, .. } = self;
-        let Some(plan) = plan else {
-            return Drawing { settings: Settings { max_depth, ..Settings::new(width, height) }, error_bound: 0.0 };
-        };
-        let has_boxes = plan.structures.choice.iter().any(|structure| *structure != Structure::None);
-        let without_boxes = has_boxes && !boxes;
-        let planned = Settings::planned(plan, width, height);
-        let kernel = algorithm.kernel(plan.precision.choice).unwrap_or(planned.kernel);
-        let settings = Settings { kernel, without_boxes, samples, scale, ..planned };
-        Drawing { settings, error_bound: plan.bounds.total() }
+    pub fn sampling(&self) -> Sampling {
+        Sampling { samples: self.samples, scale: self.scale }
     }
 
     /// # Errors
@@ -154,7 +92,7 @@ impl RenderSettings {
         let plain = Sampling::PLAIN;
         for (field, sampling) in [("samples", Sampling { samples, ..plain }), ("scale", Sampling { scale, ..plain })] {
             if let Err(error) = sampling.check() {
-                return refuse(field, error.to_string());
+                return refuse(field, error);
             }
             if sampling != plain && !algorithm.description().samples {
                 let others = Algorithm::names(|other| other.samples);
@@ -207,36 +145,6 @@ pub fn three_digits(value: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::algorithm::Kernel;
-    use crate::scene::gallery;
-
-    fn drawing(setting: RenderSettings) -> Drawing {
-        let scene = gallery::scene("corridor").unwrap();
-        let limits = Limits { float64: true, ..Limits::PROMISED };
-        setting.check().unwrap();
-        setting.drawing(&scene, &limits, 64, 28).unwrap()
-    }
-
-    #[test]
-    fn every_kernel_is_planned_as_far_as_it_goes() {
-        let exact = drawing(RenderSettings::default());
-        assert_eq!(exact.settings.kernel, Kernel::Whitted(Precision::F32));
-        assert_eq!(exact.error_bound, 0.0);
-        for algorithm in [Algorithm::Plain, Algorithm::Whitted] {
-            let cut = drawing(RenderSettings {
-                algorithm,
-                precision: Some(Precision::F32),
-                error: 0.01,
-                ..RenderSettings::default()
-            });
-            assert!(cut.error_bound > 0.0 && cut.error_bound <= 0.01);
-            assert_ne!(cut.settings.approximations, exact.settings.approximations);
-            assert_eq!(cut.settings.kernel == Kernel::Plain, algorithm == Algorithm::Plain);
-        }
-        let course =
-            drawing(RenderSettings { algorithm: Algorithm::Course, max_depth: Some(3), ..RenderSettings::default() });
-        assert_eq!(course.settings, Settings { max_depth: Some(3), ..Settings::new(64, 28) });
-    }
 
     #[test]
     fn contradictions_name_their_field() {

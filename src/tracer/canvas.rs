@@ -10,10 +10,10 @@ use std::time::{Duration, Instant};
 use super::chunks::{Pace, Sweep};
 use super::live_kernel::{LiveKernel, State};
 use super::pixels::pixel_buffer;
-use super::sampling::Sampling;
-use super::{Kernel, TracerError, Work};
+use super::{Kernel, Settings, TracerError};
 use crate::gpu::{Builds, Device, GpuError, InFlight, Recorder, Resource, Shader, Use};
 use crate::scene::Scene;
+use crate::settings::sampling::Sampling;
 use images::{Image, Upscaling, images};
 pub use timing::Finished;
 use timing::{Chunk, Timing};
@@ -43,7 +43,7 @@ pub struct Canvas {
     upscaling: Option<Upscaling>,
     size: [u32; 2],
     sampling: Sampling,
-    work: Work,
+    settings: Settings,
     /// What the picture being traced, or else the last one, is of.
     current: Option<State>,
     /// What the next is of.
@@ -77,7 +77,7 @@ impl Canvas {
             upscaling: None,
             size,
             sampling: Sampling::PLAIN,
-            work: Work::WHOLE,
+            settings: Settings::new(size[0], size[1]),
             current: None,
             next: None,
             sample: 0,
@@ -173,7 +173,7 @@ impl Canvas {
     /// # Errors
     /// They are not within the limits.
     pub fn set_sampling(&mut self, in_flight: &mut InFlight, sampling: Sampling) -> Result<bool, TracerError> {
-        sampling.check()?;
+        sampling.check().map_err(TracerError::Refused)?;
         if sampling == self.sampling {
             return Ok(false);
         }
@@ -215,9 +215,10 @@ impl Canvas {
         self.timing.first_of_interest = self.begun + 1;
     }
 
-    /// What is traced from the next picture [asked for](Canvas::show) on.
-    pub fn set_work(&mut self, work: Work) {
-        self.work = work;
+    /// What is traced, and what is left out, from the next picture [asked for](Canvas::show) on. Kernel, size and sampling
+    /// are the canvas's own.
+    pub fn set_settings(&mut self, settings: Settings) {
+        self.settings = settings;
     }
 
     /// Asks for a picture of the scene; of a scene unchanged, nothing is traced.
@@ -225,7 +226,7 @@ impl Canvas {
     /// # Errors
     /// The kernel cannot take the scene; the picture stays as it is.
     pub fn show(&mut self, scene: &Scene) -> Result<(), TracerError> {
-        let wanted = self.kernel.prepare(scene, &self.work, self.sampling, self.size)?;
+        let wanted = self.kernel.prepare(scene, &self.settings, self.sampling, self.size)?;
         let latest = self.next.as_ref().or(self.current.as_ref());
         if latest != Some(&wanted) {
             self.next = Some(wanted);
@@ -236,7 +237,7 @@ impl Canvas {
     /// Asks for the same picture once more.
     pub fn trace_again(&mut self, scene: &Scene) -> Result<(), TracerError> {
         if self.is_whole() {
-            self.next = Some(self.kernel.prepare(scene, &self.work, self.sampling, self.size)?);
+            self.next = Some(self.kernel.prepare(scene, &self.settings, self.sampling, self.size)?);
         }
         Ok(())
     }

@@ -6,11 +6,11 @@ use super::course::{CourseKernel, CourseScene, WORKGROUP};
 use super::live_whitted::{LiveWhitted, WhittedState};
 use super::parts::Part;
 use super::records::PrimitiveRecords;
-use super::sampling::Sampling;
-use super::{Kernel, TracerError, Work};
+use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, shaders};
 use crate::plan::{MOST_PIXELS, Precision};
 use crate::scene::{DEPTH_LIMIT, Scene};
+use crate::settings::sampling::Sampling;
 
 /// What a picture is traced by, pixels along x and y: workgroups below each other, as many as an invocation has pixels at
 /// most.
@@ -88,17 +88,17 @@ impl LiveKernel {
     pub fn prepare(
         &self,
         scene: &Scene,
-        work: &Work,
+        settings: &Settings,
         sampling: Sampling,
         size: [u32; 2],
     ) -> Result<State, TracerError> {
         Ok(match self {
             Self::Course(_) => {
-                sampling.check_plain()?;
-                let max_depth = work.max_depth.unwrap_or(scene.max_depth);
+                sampling.check_plain().map_err(TracerError::Refused)?;
+                let max_depth = settings.max_depth.unwrap_or(scene.max_depth);
                 State::Course(Box::new(CourseScene::new(scene, max_depth, size)?))
             }
-            Self::Whitted(live) => State::Whitted(Box::new(live.prepare(scene, work, sampling, size)?)),
+            Self::Whitted(live) => State::Whitted(Box::new(live.prepare(scene, settings, sampling, size)?)),
         })
     }
 

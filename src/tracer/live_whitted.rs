@@ -8,14 +8,14 @@ use bytemuck::NoUninit;
 use super::course::WORKGROUP;
 use super::live_kernel::Begun;
 use super::pixels::check_picture;
-use super::sampling::Sampling;
 use super::whitted::{WhittedScene, check_precision};
 use super::whitted_pipeline::{WhittedPipeline, shader_of};
 use super::whitted_records::{SolidRecords, WhittedRecords};
-use super::{Kernel, TracerError, Work};
+use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Texel, Use};
 use crate::plan::{self, Precision, TraversalCost};
 use crate::scene::{Extent, Primitive, Scene, SceneSpace};
+use crate::settings::sampling::Sampling;
 
 /// The kernel with the state that it began last.
 pub(super) struct LiveWhitted {
@@ -87,7 +87,7 @@ impl LiveWhitted {
     pub fn prepare(
         &self,
         scene: &Scene,
-        work: &Work,
+        settings: &Settings,
         sampling: Sampling,
         size: [u32; 2],
     ) -> Result<WhittedState, TracerError> {
@@ -105,13 +105,13 @@ impl LiveWhitted {
             _ => Arc::new(SolidRecords::of(&scene.primitives, frame, precision, last.map(Arc::as_ref))),
         };
         let records = WhittedRecords::with(scene, solids, precision, size);
-        let max_depth = work.max_depth.unwrap_or(scene.max_depth);
+        let max_depth = settings.max_depth.unwrap_or(scene.max_depth);
         // Of what a window shows, nothing is traced again that took too long.
         let pixels = primitives.cost.pixels_per_invocation(scene.lights.len(), max_depth, 1);
         let scene =
-            WhittedScene::with(&self.device, scene, records, self.kernel, work.approximations, max_depth, size)?;
+            WhittedScene::with(&self.device, scene, records, self.kernel, settings.approximations, max_depth, size)?;
         let scene = scene.with_pixels_per_invocation(pixels);
-        let scene = if work.without_boxes { scene.without_boxes() } else { scene };
+        let scene = if settings.without_boxes { scene.without_boxes() } else { scene };
         check_picture(self.device.description(), sampling.traced_size(size))?;
         Ok(WhittedState { scene: scene.sampled(sampling, size), primitives })
     }

@@ -12,7 +12,6 @@ mod pixels;
 pub mod probe;
 mod proxies;
 mod records;
-pub mod sampling;
 mod scene_kernel;
 mod settings;
 mod target;
@@ -37,7 +36,7 @@ pub use records::{
 
 pub use crate::algorithm::{Kernel, Precision};
 pub use crate::plan::Features;
-pub use settings::{Settings, Work};
+pub use settings::Settings;
 pub use whitted::{check_precision, scene_bindings, scene_space, upload_scene};
 pub use whitted_records::{SolidRecords, WhittedPushConstants, WhittedRecords};
 
@@ -105,7 +104,7 @@ impl Tracer {
     pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings) -> Result<Self, TracerError> {
         let &Settings { width, height, max_depth, .. } = settings;
         Frame::check_size(width, height)?;
-        settings.sampling().check()?;
+        settings.sampling().check().map_err(TracerError::Refused)?;
         let max_depth = max_depth.unwrap_or(scene.max_depth);
         let kernel = SceneKernel::new(device, scene, settings, max_depth)?;
         let target = Target::new(device, &kernel, scene, settings, max_depth)?;
@@ -132,7 +131,7 @@ impl Tracer {
     pub fn set_scene(&mut self, scene: &Scene, settings: &Settings) -> Result<(), TracerError> {
         let &Settings { width, height, max_depth, .. } = settings;
         assert_eq!((width, height), (self.width, self.height), "the settings are of another size");
-        settings.sampling().check()?;
+        settings.sampling().check().map_err(TracerError::Refused)?;
         let max_depth = max_depth.unwrap_or(scene.max_depth);
         self.kernel.set_scene(&self.device, scene, settings, max_depth)?;
         self.target.set_scene(&self.device, &self.kernel, scene, settings, max_depth)?;

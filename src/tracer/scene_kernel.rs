@@ -145,7 +145,7 @@ impl SceneKernel {
 }
 
 fn course_scene(scene: &Scene, settings: &Settings, max_depth: u32) -> Result<CourseScene, TracerError> {
-    settings.sampling().check_plain()?;
+    settings.sampling().check_plain().map_err(TracerError::Refused)?;
     CourseScene::new(scene, max_depth, [settings.width, settings.height])
 }
 

@@ -1,9 +1,9 @@
 //! How to draw, apart from the scene.
 
 use super::course::WORKGROUP;
-use super::sampling::Sampling;
 use crate::algorithm::Kernel;
 use crate::plan::{Approximations, Plan};
+use crate::settings::sampling::Sampling;
 
 /// How to render, apart from the scene.
 #[derive(Debug, Clone, PartialEq)]
@@ -51,43 +51,27 @@ impl Settings {
         }
     }
 
-    /// By the accurate kernel, as a plan has it.
-    pub fn planned(plan: &Plan, width: u32, height: u32) -> Self {
-        Self {
-            width,
-            height,
+    /// As a plan has it.
+    pub fn planned(plan: &Plan) -> Self {
+        let [width, height] = plan.size;
+        let exact = Self {
             max_depth: Some(plan.generations.choice),
             max_tile_side: plan.tile_side.choice,
             workgroup: plan.workgroup.choice,
-            kernel: Kernel::Whitted(plan.precision.choice),
-            approximations: plan.approximations,
-            without_boxes: false,
-            pixels: None,
-            samples: 1,
-            scale: 1.0,
+            kernel: plan.kernel,
+            samples: plan.settings.samples,
+            scale: plan.settings.scale,
+            ..Self::new(width, height)
+        };
+        let is_without_boxes = plan.is_without_boxes();
+        if plan.settings.algorithm.description().approximates {
+            Self { approximations: plan.approximations, without_boxes: is_without_boxes, ..exact }
+        } else {
+            exact
         }
     }
 
     pub(super) fn sampling(&self) -> Sampling {
         Sampling { samples: self.samples, scale: self.scale }
-    }
-}
-
-/// What a [`Canvas`](super::Canvas) traces of any scene.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Work {
-    /// See [`Settings`], as of the others.
-    pub approximations: Approximations,
-    pub max_depth: Option<u32>,
-    pub without_boxes: bool,
-}
-
-impl Work {
-    /// All of it.
-    pub const WHOLE: Self = Self { approximations: Approximations::NONE, max_depth: None, without_boxes: false };
-
-    pub fn of(settings: &Settings) -> Self {
-        let &Settings { approximations, max_depth, without_boxes, .. } = settings;
-        Self { approximations, max_depth, without_boxes }
     }
 }

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::sampling::Sampling;
 use super::whitted_records::{WhittedPushConstants, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingKind, Buffer, BufferKind, Device, GpuError, Resource, Texel};
 use crate::plan::{self, Approximations, Area, Features, MOST_PIXELS, Precision};
 use crate::scene::{Scene, SceneSpace};
+use crate::settings::sampling::Sampling;
 
 impl Precision {
     /// A vector and its error as the nearest vector of this precision and what is missing.

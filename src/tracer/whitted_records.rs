@@ -12,12 +12,12 @@ use rayon::prelude::*;
 
 use super::hierarchy::{self, Bounds, GROUP, Level};
 use super::proxies::{bounds, level_rows, nothing, proxy};
-use super::sampling::sample_place;
 use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, VIEW_ROWS, is_rotated, solid_row_count};
 use crate::scene::{
     BoundingSphere, BoxNearby, Camera, CylinderNearby, Light, Primitive, Projection, Scene, SceneSpace, Solid,
     SolidKind, SphereNearby, two_sum, world_from_box,
 };
+use crate::settings::sampling::sample_place;
 
 /// What the kernel's buffers hold.
 #[derive(Debug, Clone)]

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use super::selection::{by_shader, few_with_all};
 use crate::algorithm::{ALGORITHMS, Kernel};
 use crate::gpu::DeviceDescription;
-use crate::plan::{Limits, Plan, PlanError, Precision, Structure, Wishes};
+use crate::plan::{Limits, Plan, PlanError, Precision, Structure};
 use crate::scene::{Light, Scene, gallery};
-use crate::tracer::sampling::Sampling;
+use crate::settings::RenderSettings;
+use crate::settings::sampling::Sampling;
 use crate::tracer::{Settings, WORKGROUP};
 
 /// Pixels. The checks are per command and per access, not per pixel.
@@ -155,8 +156,8 @@ impl Way {
         let Self { kernel, workgroup, without_boxes, error, sampling } = self;
         let scene = &subject.scene;
         let [width, height] = PICTURE;
-        let wishes = Wishes { precision: Some(kernel.precision()), error, ..Wishes::exact(width, height) };
-        let plan = Plan::for_scene(scene, &wishes, limits)?;
+        let settings = RenderSettings { precision: Some(kernel.precision()), error, ..RenderSettings::default() };
+        let plan = Plan::for_scene(scene, &settings, [width, height], limits)?;
         let has_boxes = plan.structures.choice.iter().any(|structure| *structure != Structure::None);
         let cuts_nothing = (plan.approximations.min_throughput, plan.approximations.min_shadowed, plan.bounds.total())
             == (0.0, 0.0, 0.0);
@@ -168,7 +169,7 @@ impl Way {
             return Ok(None);
         }
         let settings = if row.is_accurate {
-            Settings::planned(&plan, width, height)
+            Settings::planned(&plan)
         } else {
             Settings { kernel, ..Settings::new(width, height) }
         };

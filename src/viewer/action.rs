@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::preferences::{Preferences, UsualKernel};
 use crate::scene::{Light, Material, Projection, Solid, SolidKind};
 use crate::settings::RenderSettings;
+use crate::settings::sampling::Sampling;
 use crate::tracer::Precision;
-use crate::tracer::sampling::Sampling;
 
 /// One wish. Edits go through the undo history; a wish that cannot be granted changes nothing and shows a message.
 #[derive(Debug, Clone, PartialEq)]

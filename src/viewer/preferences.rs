@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use directories::ProjectDirs;
 use serde::{Deserialize, Serialize};
 
-use crate::tracer::sampling::MAX_SAMPLES;
+use crate::settings::sampling::MAX_SAMPLES;
 use crate::whole_file::WholeFile;
 
 /// Of the file that is read: a few hundred are enough, and a file gone wrong may have any size.

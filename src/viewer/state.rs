@@ -11,7 +11,7 @@ use super::preferences::Preferences;
 use crate::frame::FileFormat;
 use crate::scene::{Scene, gallery};
 use crate::settings::RenderSettings;
-use crate::tracer::sampling::Sampling;
+use crate::settings::sampling::Sampling;
 
 /// All of the window but its picture.
 #[derive(Debug)]

@@ -4,19 +4,21 @@ use std::ops::ControlFlow;
 
 use crate::scenes::{cube, light, material, mirror, mixed_scene, primitive, scene_of_a_light, sphere};
 use glam::DVec3;
-use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, Wishes, scene_space};
+use zerkalo::algorithm::{Algorithm, Kernel};
+use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, scene_space};
 use zerkalo::reference::{self, LIGHT_SPHERE};
 use zerkalo::scene::{Camera, Light, Material, Scene, Solid, SolidKind, gallery};
-use zerkalo::tracer::{Features, WhittedRecords};
+use zerkalo::settings::RenderSettings;
+use zerkalo::tracer::{Features, Settings, WhittedRecords};
 
 const DEVICE: Limits = Limits { float64: true, max_array_bytes: 1 << 27, max_image_side: 16384, packets: true };
 
 fn exact(scene: &Scene) -> Plan {
-    Plan::for_scene(scene, &Wishes::exact(1621, 701), &DEVICE).unwrap()
+    Plan::for_scene(scene, &RenderSettings::default(), [1621, 701], &DEVICE).unwrap()
 }
 
 fn within(scene: &Scene, error: f64) -> Plan {
-    Plan::for_scene(scene, &Wishes { error, ..Wishes::exact(1621, 701) }, &DEVICE).unwrap()
+    Plan::for_scene(scene, &RenderSettings { error, ..RenderSettings::default() }, [1621, 701], &DEVICE).unwrap()
 }
 
 /// Seen from z = −8, lit by one light.
@@ -64,7 +66,7 @@ fn balls_out_of_sight_are_those_that_no_picture_shows() {
     for index in 0..400 {
         let scene = scene_of_a_light(index);
         let (width, height) = (64, 28);
-        let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &DEVICE).unwrap();
+        let plan = Plan::for_scene(&scene, &RenderSettings::default(), [width, height], &DEVICE).unwrap();
         let image = reference::render(&scene, width, height, &|_| ControlFlow::Continue(())).unwrap();
         let shown = (0..).zip(&image.pixels).filter(|(_, pixel)| pixel.first_hit == LIGHT_SPHERE);
         let shown: Vec<[u32; 2]> = shown.map(|(i, _)| [i % width, i / width]).collect();
@@ -165,8 +167,8 @@ fn highlights_need_a_specular_material_and_a_light() {
 fn generations_are_those_that_can_add_light() {
     let specular = two_balls(material(0.1, 0.5, 0.2));
     assert_eq!((exact(&specular).generations.choice, exact(&specular).generations.reason), (20, Reason::SceneSays));
-    let asked = Wishes { max_depth: Some(7), ..Wishes::exact(8, 8) };
-    let plan = Plan::for_scene(&specular, &asked, &DEVICE).unwrap();
+    let asked = RenderSettings { max_depth: Some(7), ..RenderSettings::default() };
+    let plan = Plan::for_scene(&specular, &asked, [8, 8], &DEVICE).unwrap();
     assert_eq!((plan.generations.choice, plan.generations.reason), (7, Reason::Asked));
 
     let matt = exact(&two_balls(material(0.1, 0.5, 0.0)));
@@ -211,12 +213,12 @@ fn boxes_are_upright_unless_one_is_turned() {
 fn a_precision_asked_for_is_taken_or_refused() {
     let scene = mixed_scene();
     for precision in [Precision::F32, Precision::F64] {
-        let wishes = Wishes { precision: Some(precision), error: 1e-5, ..Wishes::exact(8, 8) };
-        let plan = Plan::for_scene(&scene, &wishes, &DEVICE).unwrap();
+        let settings = RenderSettings { precision: Some(precision), error: 1e-5, ..RenderSettings::default() };
+        let plan = Plan::for_scene(&scene, &settings, [8, 8], &DEVICE).unwrap();
         assert_eq!((plan.precision.choice, plan.precision.reason), (precision, Reason::Asked));
     }
-    let wishes = Wishes { precision: Some(Precision::F64), ..Wishes::exact(8, 8) };
-    assert_eq!(Plan::for_scene(&scene, &wishes, &Limits::PROMISED), Err(PlanError::NoFloat64));
+    let settings = RenderSettings { precision: Some(Precision::F64), ..RenderSettings::default() };
+    assert_eq!(Plan::for_scene(&scene, &settings, [8, 8], &Limits::PROMISED), Err(PlanError::NoFloat64));
 }
 
 #[test]
@@ -247,8 +249,8 @@ fn f64_is_chosen_where_f32_is_not_known_to_keep_the_error() {
     assert_eq!(narrow.choice, Precision::F64);
     assert!(matches!(narrow.reason, Reason::RoundingMovesSilhouettes { shift_pixels } if shift_pixels > 0.5));
 
-    let poor = Wishes { error: 1e-4, ..Wishes::exact(1621, 701) };
-    let poor = Plan::for_scene(&scene, &poor, &Limits::PROMISED).unwrap().precision;
+    let poor = RenderSettings { error: 1e-4, ..RenderSettings::default() };
+    let poor = Plan::for_scene(&scene, &poor, [1621, 701], &Limits::PROMISED).unwrap().precision;
     assert!(poor.choice == Precision::F32 && matches!(poor.reason, Reason::NoFloat64 { .. }));
 }
 
@@ -256,8 +258,9 @@ fn f64_is_chosen_where_f32_is_not_known_to_keep_the_error() {
 fn few_solids_are_tried_one_by_one_in_small_workgroups_and_tiles_fit_the_device() {
     let plan = exact(&mixed_scene());
     assert_eq!((plan.structures.choice, plan.workgroup.choice), ([Structure::None; 4], [8, 8]));
-    let tile =
-        |limits: &Limits, scene: &Scene| Plan::for_scene(scene, &Wishes::exact(4000, 4000), limits).unwrap().tile_side;
+    let tile = |limits: &Limits, scene: &Scene| {
+        Plan::for_scene(scene, &RenderSettings::default(), [4000, 4000], limits).unwrap().tile_side
+    };
     let few = two_balls(material(0.1, 0.5, 0.0));
     assert_eq!((tile(&DEVICE, &few).choice, tile(&DEVICE, &few).reason), (1024, Reason::LightTiles));
     assert_eq!(tile(&Limits { max_image_side: 512, ..DEVICE }, &few).choice, 512);
@@ -282,8 +285,9 @@ fn a_scene_fits_the_device_exactly_where_the_kernels_records_do() {
             let proxies = records.solids.proxies.len() as u64 * 16;
             let own = records.buffers().map(|(_, rows)| rows.len() as u64 * row_bytes);
             let largest = own.into_iter().chain([proxies]).max().unwrap();
-            let wishes = Wishes { precision: Some(precision), ..Wishes::exact(8, 8) };
-            let fits = |max_array_bytes| Plan::for_scene(&scene, &wishes, &Limits { max_array_bytes, ..DEVICE });
+            let settings = RenderSettings { precision: Some(precision), ..RenderSettings::default() };
+            let fits =
+                |max_array_bytes| Plan::for_scene(&scene, &settings, [8, 8], &Limits { max_array_bytes, ..DEVICE });
             assert!(fits(largest).is_ok());
             let error = fits(largest - 1).unwrap_err();
             assert!(matches!(error, PlanError::TooLarge { bytes, .. } if bytes == largest), "{error}");
@@ -292,21 +296,49 @@ fn a_scene_fits_the_device_exactly_where_the_kernels_records_do() {
 }
 
 #[test]
-fn senseless_wishes_are_refused_in_one_line() {
+fn senseless_settings_are_refused_in_one_line() {
     let scene = mixed_scene();
-    let exact = Wishes::exact(8, 8);
+    let exact = RenderSettings::default();
     let refused = [
-        Wishes { error: f64::NAN, ..exact.clone() },
-        Wishes { error: -1e-3, ..exact.clone() },
-        Wishes { error: f64::INFINITY, ..exact.clone() },
-        Wishes { max_depth: Some(0), ..exact.clone() },
-        Wishes { max_depth: Some(1001), ..exact.clone() },
-        Wishes { width: 0, ..exact.clone() },
+        (RenderSettings { error: f64::NAN, ..exact }, [8, 8]),
+        (RenderSettings { error: -1e-3, ..exact }, [8, 8]),
+        (RenderSettings { error: f64::INFINITY, ..exact }, [8, 8]),
+        (RenderSettings { max_depth: Some(0), ..exact }, [8, 8]),
+        (RenderSettings { max_depth: Some(1001), ..exact }, [8, 8]),
+        (RenderSettings { algorithm: Algorithm::Course, error: 0.1, ..exact }, [8, 8]),
+        (RenderSettings { algorithm: Algorithm::Reference, ..exact }, [8, 8]),
+        (exact, [0, 8]),
     ];
-    for wishes in refused {
-        let error = Plan::for_scene(&scene, &wishes, &DEVICE).unwrap_err().to_string();
+    for (settings, size) in refused {
+        let error = Plan::for_scene(&scene, &settings, size, &DEVICE).unwrap_err().to_string();
         assert!(!error.contains('\n') && !error.is_empty(), "{error}");
     }
+}
+
+#[test]
+fn every_algorithm_is_planned_as_far_as_it_goes() {
+    let scene = gallery::scene("corridor").unwrap();
+    let plan = |settings: &RenderSettings| Plan::for_scene(&scene, settings, [64, 28], &DEVICE).unwrap();
+    let exact = plan(&RenderSettings::default());
+    assert_eq!((exact.kernel, exact.bounds.total()), (Kernel::Whitted(Precision::F32), 0.0));
+    for algorithm in [Algorithm::Plain, Algorithm::Whitted] {
+        let cut = plan(&RenderSettings {
+            algorithm,
+            precision: Some(Precision::F32),
+            error: 0.01,
+            ..RenderSettings::default()
+        });
+        assert!(cut.bounds.total() > 0.0 && cut.bounds.total() <= 0.01);
+        assert_ne!(cut.approximations, exact.approximations);
+        assert_eq!(cut.kernel.algorithm(), algorithm);
+    }
+    let course = RenderSettings { algorithm: Algorithm::Course, max_depth: Some(3), ..RenderSettings::default() };
+    let course = plan(&course);
+    let expected = Settings { max_depth: Some(3), ..Settings::new(64, 28) };
+    assert_eq!(Settings { max_tile_side: 1024, ..Settings::planned(&course) }, expected);
+    assert_eq!(course.structures.reason, Reason::NoHierarchy);
+    let brute = plan(&RenderSettings { boxes: false, ..RenderSettings::default() });
+    assert_eq!((brute.structures.choice, brute.structures.reason), ([Structure::None; 4], Reason::Asked));
 }
 
 #[test]
@@ -448,8 +480,8 @@ fn a_kernel_is_compiled_for_what_the_plan_says() {
         }
         let precision = if number % 2 == 0 { Precision::F32 } else { Precision::F64 };
         let error = if number % 3 == 0 { 0.01 } else { 0.0 };
-        let wishes = Wishes { precision: Some(precision), error, ..Wishes::exact(64, 28) };
-        let plan = Plan::for_scene(&scene, &wishes, &DEVICE).unwrap();
+        let settings = RenderSettings { precision: Some(precision), error, ..RenderSettings::default() };
+        let plan = Plan::for_scene(&scene, &settings, [64, 28], &DEVICE).unwrap();
         let records = WhittedRecords::of(&scene, scene_space(&scene, precision), precision, [64, 28]);
         let compiled = Features::of(&records, &plan.approximations, plan.generations.choice);
         let compiled = Features { pixels: plan.pixels.choice, ..compiled };

@@ -4,9 +4,10 @@ use crate::budget::random_scene;
 use crate::random::Random;
 use glam::DVec3;
 use rayon::prelude::*;
-use zerkalo::plan::{Approximations, Limits, Plan, Precision, Wishes};
+use zerkalo::plan::{Approximations, Limits, Plan, Precision};
 use zerkalo::reference::{Hit, LIGHT_SPHERE, OriginSurface, PrimaryRays, Ray, Solids, World};
 use zerkalo::scene::{Material, Scene};
+use zerkalo::settings::RenderSettings;
 
 /// The accurate model over the reference's intersections, with a plan's cuts.
 struct Model<'a> {
@@ -107,8 +108,8 @@ struct Change {
 fn change(scene: &Scene, error: f64) -> Change {
     let [width, height] = PIXELS;
     let limits = Limits { float64: true, ..Limits::PROMISED };
-    let wishes = Wishes { precision: Some(Precision::F64), error, ..Wishes::exact(width, height) };
-    let plan = Plan::for_scene(scene, &wishes, &limits).unwrap();
+    let settings = RenderSettings { precision: Some(Precision::F64), error, ..RenderSettings::default() };
+    let plan = Plan::for_scene(scene, &settings, [width, height], &limits).unwrap();
     let bound = plan.bounds.total();
     assert!(bound <= error, "{bound} of {error}: {plan:?}");
 

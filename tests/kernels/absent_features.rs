@@ -9,8 +9,9 @@ use crate::common::TestDevice;
 use crate::spirv_walk::{Kernel, Reached};
 use glam::DVec3;
 use zerkalo::gpu::{Shader, shaders};
-use zerkalo::plan::{Limits, Plan, Precision, Wishes, scene_space};
+use zerkalo::plan::{Limits, Plan, Precision, scene_space};
 use zerkalo::scene::{Light, Material, Scene, Solid, SolidKind, gallery};
+use zerkalo::settings::RenderSettings;
 use zerkalo::tracer::{Features, WhittedRecords};
 
 const SIZE: (u32, u32) = (1621, 701);
@@ -65,8 +66,8 @@ fn without(feature: &str) -> Scene {
 
 fn reached(device: &TestDevice, kernel: &Kernel, scene: &Scene, precision: Precision) -> Reached {
     let limits = Limits { float64: true, max_array_bytes: 1 << 27, ..Limits::PROMISED };
-    let wishes = Wishes { precision: Some(precision), ..Wishes::exact(SIZE.0, SIZE.1) };
-    let plan = Plan::for_scene(scene, &wishes, &limits).unwrap();
+    let settings = RenderSettings { precision: Some(precision), ..RenderSettings::default() };
+    let plan = Plan::for_scene(scene, &settings, [SIZE.0, SIZE.1], &limits).unwrap();
     let records = WhittedRecords::of(scene, scene_space(scene, precision), precision, [SIZE.0, SIZE.1]);
     let features = Features::of(&records, &plan.approximations, plan.generations.choice);
     kernel.reached(&features.constants(device, precision, plan.workgroup.choice).unwrap())

@@ -5,10 +5,11 @@ use crate::tracers::Tracers;
 use glam::DVec3;
 use zerkalo::frame::Frame;
 use zerkalo::gpu::{Builds, InFlight, Shader, shaders};
+use zerkalo::plan::Plan;
 use zerkalo::scene::{Light, Projection, Scene, Solid, gallery};
 use zerkalo::settings::RenderSettings;
-use zerkalo::tracer::sampling::Sampling;
-use zerkalo::tracer::{Canvas, Kernel, Precision, Settings, TracerError, Work, limits_of};
+use zerkalo::settings::sampling::Sampling;
+use zerkalo::tracer::{Canvas, Kernel, Precision, Settings, TracerError, limits_of};
 
 /// A canvas with what it is traced on.
 struct Easel {
@@ -201,9 +202,9 @@ fn what_a_setting_leaves_out_the_canvas_leaves_out_as_the_tracer_does() {
     ] {
         for name in ["corridor", "grid-sphere-40"] {
             let scene = scene(name);
-            let settings = setting.drawing(&scene, &limits, size[0], size[1]).unwrap().settings;
+            let settings = Settings::planned(&Plan::for_scene(&scene, &setting, size, &limits).unwrap());
             easel.canvas.use_kernel(settings.kernel).unwrap();
-            easel.canvas.set_work(Work::of(&settings));
+            easel.canvas.set_settings(settings.clone());
             let (frame, _) = easel.draw(&scene);
             assert!(frame == render(&device, &scene, &settings), "{name}: {setting}");
         }

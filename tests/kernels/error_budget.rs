@@ -8,8 +8,9 @@ use crate::scenes::picture;
 use crate::tracers::Tracers;
 use glam::DVec3;
 use zerkalo::measure::{Difference, tolerances};
-use zerkalo::plan::{Limits, Plan, Precision, Wishes};
+use zerkalo::plan::{Limits, Plan, Precision};
 use zerkalo::scene::Scene;
+use zerkalo::settings::RenderSettings;
 use zerkalo::tracer::{Kernel, Settings};
 
 const SCENES: u64 = 240;
@@ -17,14 +18,14 @@ const SIZE: [u32; 2] = [24, 16];
 
 fn plan(scene: &Scene, precision: Precision, error: f64) -> Plan {
     let limits = Limits { float64: true, ..Limits::PROMISED };
-    let wishes = Wishes { precision: Some(precision), error, ..Wishes::exact(SIZE[0], SIZE[1]) };
-    let plan = Plan::for_scene(scene, &wishes, &limits).unwrap();
+    let settings = RenderSettings { precision: Some(precision), error, ..RenderSettings::default() };
+    let plan = Plan::for_scene(scene, &settings, [SIZE[0], SIZE[1]], &limits).unwrap();
     assert!(plan.bounds.total() <= error);
     plan
 }
 
 fn draw_planned(tracers: &mut Tracers, scene: &Scene, plan: &Plan) -> Vec<DVec3> {
-    tracers.draw_f64(scene, &Settings::planned(plan, SIZE[0], SIZE[1]))
+    tracers.draw_f64(scene, &Settings::planned(plan))
 }
 
 /// In proportion to the scene's light, for one lit by 1e38 has nothing to cut for 1/510.

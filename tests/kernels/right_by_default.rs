@@ -6,8 +6,9 @@ use crate::scenes::{picture, primitive};
 use crate::tracers::Tracers;
 
 use glam::DVec3;
-use zerkalo::plan::{Limits, Plan, Precision, Wishes};
+use zerkalo::plan::{Limits, Plan, Precision};
 use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, Solid, SolidKind};
+use zerkalo::settings::RenderSettings;
 use zerkalo::tracer::{Kernel, Settings};
 
 const SIZE: [u32; 2] = [96, 42];
@@ -181,7 +182,7 @@ fn judge_plans(seeds: std::ops::Range<u64>) {
             continue;
         }
         let share = share_of_wrong(&mut tracers, &scene, Precision::F32);
-        let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &limits).unwrap();
+        let plan = Plan::for_scene(&scene, &RenderSettings::default(), [width, height], &limits).unwrap();
         let is_right = share <= FEW_WRONG;
         *(if is_right { &mut right } else { &mut wrong }) += 1;
         match (is_right, plan.precision.choice) {
@@ -220,13 +221,13 @@ fn reported_scenes_are_right_by_default() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         let scene = Scene::load(&path).unwrap();
-        let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &limits).unwrap();
+        let plan = Plan::for_scene(&scene, &RenderSettings::default(), [width, height], &limits).unwrap();
         let share = share_of_wrong(&mut tracers, &scene, plan.precision.choice);
         assert!(share <= FEW_WRONG, "{path:?} in {:?}: {share} of the pixels are wrong", plan.precision);
         assert_eq!(plan.warning(), None, "{path:?}");
 
         // Without f64, what is wrong is told.
-        let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &Limits::PROMISED).unwrap();
+        let plan = Plan::for_scene(&scene, &RenderSettings::default(), [width, height], &Limits::PROMISED).unwrap();
         let share = share_of_wrong(&mut tracers, &scene, Precision::F32);
         assert!(share <= FEW_WRONG || plan.warning().is_some(), "{path:?}: {share} of the pixels are wrong");
         seen.push(path);
@@ -277,7 +278,8 @@ fn f32_is_right_on_grounds_of_any_size() {
             }
             for ground in grounds {
                 let scene = planet(ground.clone(), top);
-                let plan = Plan::for_scene(&scene, &Wishes::exact(width, height), &Limits::PROMISED).unwrap();
+                let plan =
+                    Plan::for_scene(&scene, &RenderSettings::default(), [width, height], &Limits::PROMISED).unwrap();
                 assert!(plan.close_up.is_some() && plan.warning().is_none(), "{ground:?}: {plan:?}");
                 let share = share_of_wrong(&mut tracers, &scene, Precision::F32);
                 assert!(share <= FEW_WRONG, "{ground:?} under {top}: {share} of the pixels are wrong");

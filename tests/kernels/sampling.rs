@@ -14,7 +14,7 @@ use zerkalo::gpu::{
     StorageImage, Use, shaders,
 };
 use zerkalo::scene::{Camera, Material, Projection, Scene, gallery};
-use zerkalo::tracer::sampling::{SUBPIXELS, Sampling, sample_place};
+use zerkalo::settings::sampling::{SUBPIXELS, Sampling, sample_place};
 use zerkalo::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
 
 const F32: Kernel = Kernel::Whitted(Precision::F32);

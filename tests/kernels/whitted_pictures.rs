@@ -9,9 +9,10 @@ use crate::scenes::{mixed_scene, moved_and_scaled, picture};
 use crate::tracers::Tracers;
 use glam::DVec3;
 use zerkalo::measure::{Difference, tolerances};
-use zerkalo::plan::{Limits, Plan, Wishes};
+use zerkalo::plan::{Limits, Plan};
 use zerkalo::reference::LIGHT_SPHERE;
 use zerkalo::scene::{Light, Projection, Scene, gallery};
+use zerkalo::settings::RenderSettings;
 use zerkalo::tracer::{Kernel, Precision, Settings};
 
 const SIZE: [u32; 2] = [88, 38];
@@ -92,13 +93,13 @@ fn pictures_lit_by_several_lights_are_the_references() {
     for (number, scene) in [three_lights].into_iter().chain(random).enumerate() {
         let scene = Scene { max_depth: 3, ..scene };
         let truth = picture(&scene, width, height);
-        let wishes = Wishes { precision: Some(Precision::F32), ..Wishes::exact(width, height) };
-        let plan = Plan::for_scene(&scene, &wishes, &Limits::PROMISED).unwrap();
+        let settings = RenderSettings { precision: Some(Precision::F32), ..RenderSettings::default() };
+        let plan = Plan::for_scene(&scene, &settings, [width, height], &Limits::PROMISED).unwrap();
         // Places are off by 32u of the scene's 10; two mirrors, round ones, multiply that by ten each, and a highlight's
         // slope by five. The third of a light that a picture must not be off by is thirty times that.
         let tolerance = 32.0 * 6e-8 * 10.0 * 100.0 * 5.0;
         for workgroup in [[8, 8], [4, 16]] {
-            let settings = Settings { workgroup, ..Settings::planned(&plan, width, height) };
+            let settings = Settings { workgroup, ..Settings::planned(&plan) };
             let ours = tracers.draw_f64(&scene, &settings);
             let difference = Difference::between(&truth, &ours, tolerance, |_| true);
             let Difference { largest, not_finite, .. } = difference;

@@ -3,8 +3,8 @@
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT, Queryable};
 use zerkalo::scene::gallery;
+use zerkalo::settings::sampling::Sampling;
 use zerkalo::tracer::Precision;
-use zerkalo::tracer::sampling::Sampling;
 use zerkalo::viewer::action::{Action, Effect, Kernel};
 use zerkalo::viewer::preferences::{Language, Preferences, Theme};
 use zerkalo::viewer::state::{Dialog, FilePurpose};

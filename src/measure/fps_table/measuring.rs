@@ -6,9 +6,10 @@ use super::{Cell, Plan, kernel_of};
 use crate::algorithm::Algorithm;
 use crate::gpu::Device;
 use crate::measure::{FrameTime, TimedTracer};
+use crate::plan as render_plan;
 use crate::scene::{Scene, SolidKind, gallery};
 use crate::settings::RenderSettings;
-use crate::tracer::{TracerError, limits_of};
+use crate::tracer::{Settings, TracerError, limits_of};
 
 /// Where the frames of a table are drawn.
 pub trait Stage {
@@ -45,8 +46,8 @@ impl Stage for OffScreen {
                 ..RenderSettings::default()
             };
             let limits = limits_of(self.device.description());
-            let drawing = settings.drawing(scene, &limits, plan.width, plan.height);
-            let settings = drawing.map_err(|error| TracerError::Refused(error.to_string()))?.settings;
+            let planned = render_plan::Plan::for_scene(scene, &settings, [plan.width, plan.height], &limits);
+            let settings = Settings::planned(&planned.map_err(|error| TracerError::Refused(error.to_string()))?);
             Ok((algorithm, TimedTracer::new(&self.device, scene, &settings)?))
         };
         // The last scene's pictures make room before.

@@ -5,8 +5,9 @@ use glam::DVec3;
 
 use super::pictures::{picture, size, truth};
 use super::{Case, Measured};
-use crate::plan::{Plan, Wishes};
+use crate::plan::Plan;
 use crate::scene::{Camera, Light, Material, Primitive, Scene, Solid, world_from_box};
+use crate::settings::RenderSettings;
 use crate::tracer::{Kernel, Precision, TracerError, limits_of};
 
 pub(super) fn cases() -> Vec<Case> {
@@ -45,10 +46,11 @@ fn right_or_told(id: &str, scene: impl Fn() -> Scene + 'static) -> Case {
     Case::of_kernel(id, move |subject| {
         let Kernel::Whitted(precision) = subject.kernel else { return Ok(Vec::new()) };
         let (scene, [width, height]) = (scene(), size(subject));
-        let wishes = Wishes { precision: Some(precision), ..Wishes::exact(width, height) };
-        let plan = Plan::for_scene(&scene, &wishes, &limits_of(subject.device.description()));
+        let settings = RenderSettings { precision: Some(precision), ..RenderSettings::default() };
+        let limits = limits_of(subject.device.description());
+        let plan = Plan::for_scene(&scene, &settings, [width, height], &limits);
         let plan = plan.map_err(|error| TracerError::Refused(error.to_string()))?;
-        let is_told = plan.with_f32_tried(&scene, &wishes).warning().is_some();
+        let is_told = plan.with_f32_tried(&scene).warning().is_some();
         let Some(ours) = picture(subject, &scene, [width, height])? else { return Ok(Vec::new()) };
         let tolerance = Precision::F32.rounding_tolerance();
         let is_wrong = |ours: &DVec3, right: DVec3| !(*ours - right).abs().cmple(DVec3::splat(tolerance)).all();

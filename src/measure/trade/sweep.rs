@@ -2,7 +2,7 @@
 
 use super::{LeftOut, Target};
 use crate::algorithm::{ALGORITHMS, Algorithm, Description, Precision};
-use crate::plan::{Limits, PlanError};
+use crate::plan::{Limits, Plan, PlanError};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 use crate::tracer::Settings;
@@ -84,11 +84,11 @@ impl Sweep {
     /// The scene is not for this device, whatever the setting.
     pub fn of(scene: &Scene, axes: &Axes, limits: &Limits, [width, height]: [u32; 2]) -> Result<Self, PlanError> {
         let plan = |setting: RenderSettings| {
-            let drawing = setting.drawing(scene, limits, width, height)?;
+            let plan = Plan::for_scene(scene, &setting, [width, height], limits)?;
             let is_of_model = setting.algorithm.description().is_accurate && setting.max_depth.is_none();
             let is_of_points = axes.target == Target::Point && setting.samples == 1 && setting.scale == 1.0;
-            let bound = (is_of_model && is_of_points).then_some(drawing.error_bound);
-            Ok::<_, PlanError>(Planned { setting, settings: drawing.settings, bound })
+            let bound = (is_of_model && is_of_points).then(|| plan.bounds.total());
+            Ok::<_, PlanError>(Planned { setting, settings: Settings::planned(&plan), bound })
         };
         let mut sweep = Self { baseline: plan(BASELINE)?, others: Vec::new(), left_out: Vec::new() };
         for setting in candidates(scene, axes) {

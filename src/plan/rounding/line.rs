@@ -183,3 +183,7 @@ pub fn ordered_roots(a: f32, b: f32, c: f32, c_scale: f32, discriminant_root: f3
     let other = if is_direct { smaller / a } else { c / larger };
     (one.min(other), one.max(other))
 }
+
+pub fn unit(vector: Vec3) -> Vec3 {
+    vector / vector.length()
+}

@@ -6,6 +6,7 @@
 //! estimate, tested against the kernel itself on thousands of random scenes (`tests/kernels/right_by_default.rs`).
 
 mod line;
+mod sides;
 mod solids;
 mod world;
 

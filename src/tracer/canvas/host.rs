@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::super::TracerError;
-use super::super::sampling::Sampling;
 use super::Canvas;
 use crate::frame::Frame;
 use crate::gpu::{Buffer, BufferKind, InFlight, PIXEL_BYTES, Resource, Use};
+use crate::settings::sampling::Sampling;
 
 impl Canvas {
     /// The picture shown, as it is now.

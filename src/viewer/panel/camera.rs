@@ -4,8 +4,8 @@ use egui::Ui;
 
 use super::fields::{RGB, Scale, check, choice, group, number, number_row, vector};
 use crate::scene::{DEPTH_LIMIT, Projection};
+use crate::settings::sampling::{MAX_SAMPLES, MIN_SCALE, Sampling};
 use crate::tracer::Precision;
-use crate::tracer::sampling::{MAX_SAMPLES, MIN_SCALE, Sampling};
 use crate::viewer::action::{Action, Kernel};
 use crate::viewer::preferences::Preferences;
 use crate::viewer::state::State;

@@ -8,10 +8,10 @@ use super::super::reference_worker::ReferenceWorker;
 use super::super::screen::ScreenError;
 use super::super::state::Message;
 use super::{Reference, Screenshot, Session};
-use crate::plan::{Limits, PlanError};
+use crate::plan::{Limits, Plan, PlanError};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
-use crate::tracer::{self, Canvas, TracerError, Work, limits_of};
+use crate::tracer::{self, Canvas, Settings, TracerError, limits_of};
 
 impl Session {
     /// Kernels compiled meanwhile take the last ones' places; of a broken one is told, and its last good build goes on.
@@ -67,25 +67,25 @@ impl Session {
     fn ask_kernel(&mut self, limits: &Limits, size: [u32; 2]) -> Result<(), TracerError> {
         let scene = self.state.document.scene();
         let chosen = self.chosen.as_ref().map(|chosen| chosen.precision);
-        let (kernel, work) = match self.state.kernel {
-            Kernel::Course => (tracer::Kernel::Course, Work::WHOLE),
-            Kernel::Accurate(_) => (tracer::Kernel::Whitted(chosen.unwrap_or_default()), Work::WHOLE),
+        let exact = |kernel| Settings { kernel, ..Settings::new(size[0], size[1]) };
+        let settings = match self.state.kernel {
+            Kernel::Course => exact(tracer::Kernel::Course),
+            Kernel::Accurate(_) => exact(tracer::Kernel::Whitted(chosen.unwrap_or_default())),
             Kernel::Reference => return self.ask_for_reference(),
             // What may be left out is another thing for every scene.
             Kernel::BySetting(setting) => {
                 // With the precision chosen already, no pixels are tried for it.
                 let setting = RenderSettings { precision: chosen.or(setting.precision), ..setting };
-                let drawing = setting.drawing(scene, limits, size[0], size[1]);
-                let settings = drawing.map_err(|error| TracerError::Refused(error.to_string()))?.settings;
-                (settings.kernel, Work::of(&settings))
+                let plan = Plan::for_scene(scene, &setting, size, limits);
+                Settings::planned(&plan.map_err(|error| TracerError::Refused(error.to_string()))?)
             }
         };
         self.reference = Reference::default();
         let Some(screen) = &mut self.screen else { return Ok(()) };
-        if screen.canvas.use_kernel(kernel)? {
+        if screen.canvas.use_kernel(settings.kernel)? {
             self.frame_times.clear();
         }
-        screen.canvas.set_work(work);
+        screen.canvas.set_settings(settings);
         screen.canvas.show(scene)?;
         // The precision is chosen at rest, between two pictures.
         if self.state.is_continuous && self.screenshots.is_empty() && self.is_precision_known {

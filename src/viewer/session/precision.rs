@@ -2,7 +2,7 @@
 
 use super::super::action::Kernel;
 use super::Session;
-use crate::plan::{Limits, Plan, PlanError, Precision, Wishes};
+use crate::plan::{Limits, Plan, PlanError, Precision};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 
@@ -47,8 +47,8 @@ impl Chosen {
 
     fn new(scene: &Scene, size: [u32; 2], asked: Asked, limits: &Limits) -> Result<Self, PlanError> {
         let Asked { precision, max_depth, error } = asked;
-        let wishes = Wishes { precision, max_depth, error, width: size[0], height: size[1] };
-        let plan = Plan::for_scene(scene, &wishes, limits)?.with_f32_tried(scene, &wishes);
+        let settings = RenderSettings { precision, max_depth, error, ..RenderSettings::default() };
+        let plan = Plan::for_scene(scene, &settings, size, limits)?.with_f32_tried(scene);
         Ok(Self { scene: scene.clone(), size, asked, precision: plan.precision.choice, warning: plan.warning() })
     }
 }

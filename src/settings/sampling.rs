@@ -10,8 +10,6 @@
 //! (1 + 3/k)·u·M, of which the later steps leave k/n: after n samples the mean is off by at most ((n + 1)/2 + 3)·u·M, to
 //! first order.
 
-use super::TracerError;
-
 /// Of a pixel, along each side: a sample's ray is that of a pixel of a picture that is so many times as wide and high.
 /// Odd, so that the middle one's ray is the pixel's own.
 pub const SUBPIXELS: u32 = 65;
@@ -112,25 +110,26 @@ impl Sampling {
     pub const PLAIN: Self = Self { samples: 1, scale: 1.0 };
 
     /// # Errors
-    /// It is not within the limits.
-    pub fn check(self) -> Result<(), TracerError> {
+    /// It is not within the limits: how, in a line.
+    pub fn check(self) -> Result<(), String> {
         let Self { samples, scale } = self;
         if !(1..=MAX_SAMPLES).contains(&samples) {
-            return Err(TracerError::Refused(format!("a pixel has 1 to {MAX_SAMPLES} samples, not {samples}")));
+            return Err(format!("a pixel has 1 to {MAX_SAMPLES} samples, not {samples}"));
         }
         if !(MIN_SCALE..=1.0).contains(&scale) {
-            return Err(TracerError::Refused(format!("the render scale is {MIN_SCALE} to 1, not {scale}")));
+            return Err(format!("the render scale is {MIN_SCALE} to 1, not {scale}"));
         }
         Ok(())
     }
 
     /// # Errors
     /// It is not what the course kernel does.
-    pub(super) fn check_plain(self) -> Result<(), TracerError> {
-        if self != Self::PLAIN {
-            return Err(TracerError::Refused("the course kernel takes one sample a pixel, at scale 1".to_owned()));
+    pub fn check_plain(self) -> Result<(), String> {
+        if self == Self::PLAIN {
+            Ok(())
+        } else {
+            Err("the course kernel takes one sample a pixel, at scale 1".to_owned())
         }
-        Ok(())
     }
 
     /// Of the picture that is traced for one of `size`, pixels.
@@ -196,7 +195,7 @@ mod tests {
     fn what_is_out_of_range_is_refused_in_one_line() {
         for (samples, scale) in [(0, 1.0), (65, 1.0), (1, 0.2), (1, 1.01), (1, f64::NAN)] {
             let error = Sampling { samples, scale }.check().unwrap_err();
-            assert!(error.is_input_error() && !error.to_string().contains('\n'), "{error}");
+            assert!(!error.is_empty() && !error.contains('\n'), "{error}");
         }
         for (samples, scale) in [(1, 1.0), (64, 0.25)] {
             assert!(Sampling { samples, scale }.check().is_ok());
