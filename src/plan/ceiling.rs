@@ -2,12 +2,20 @@
 
 use glam::DVec3;
 
+use crate::scene::Scene;
+
 /// What one kind of hit can send back at most: its own light, and the weight of what it mirrors.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Surface {
     pub specular: f64,
     /// Linear RGB.
     pub local_radiance: DVec3,
+}
+
+/// The largest channel of the background and of the lights.
+pub(super) fn brightest_source(scene: &Scene) -> f64 {
+    let lights = scene.lights.iter().map(|light| light.intensity.max_element());
+    lights.fold(scene.background.max_element(), f64::max)
 }
 
 /// Vₙ for n = 0…`depth`: no ray of n generations is brighter, in linear RGB.

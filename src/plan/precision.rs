@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::ceiling::brightest_source;
 use super::rounding::{self, Rounding, is_close_up};
 use super::solids::{self, outside_by};
 use super::{Decision, Limits, PlanError, Reason};
@@ -57,12 +58,6 @@ pub(super) fn choose(
 /// What it does to the picture that is asked for, silhouettes of which it moves by so much.
 pub(super) fn rounding_to_f32(scene: &Scene, settings: &RenderSettings, size: [u32; 2], shift_pixels: f64) -> Rounding {
     rounding::of_f32(scene, settings.max_depth.unwrap_or(scene.max_depth), size, shift_pixels)
-}
-
-/// The largest channel of the background and of the lights.
-pub(super) fn brightest_source(scene: &Scene) -> f64 {
-    let lights = scene.lights.iter().map(|light| light.intensity.max_element());
-    lights.fold(scene.background.max_element(), f64::max)
 }
 
 /// No silhouette that the camera sees directly is drawn farther than that from where it is, in pixels. In mirrors there

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::course::{CourseKernel, CourseScene, WORKGROUP};
-use super::live_whitted::{LiveWhitted, WhittedState};
+use super::live_whitted::{Begun, LiveWhitted, WhittedState};
 use super::parts::Part;
 use super::records::PrimitiveRecords;
 use super::{Kernel, Settings, TracerError};
@@ -26,17 +26,6 @@ pub(super) enum LiveKernel {
 pub(super) enum State {
     Course(Box<CourseScene>),
     Whitted(Box<WhittedState>),
-}
-
-/// What it took to begin a picture of another state.
-#[derive(Default)]
-pub(super) struct Begun {
-    /// Bytes.
-    pub uploaded: u64,
-    /// Whether binding sets made before are out of date.
-    pub needs_binding: bool,
-    /// Used no more.
-    pub dropped: Vec<Resource>,
 }
 
 impl LiveKernel {

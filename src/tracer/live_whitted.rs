@@ -6,7 +6,6 @@ use std::sync::Arc;
 use bytemuck::NoUninit;
 
 use super::course::WORKGROUP;
-use super::live_kernel::Begun;
 use super::pixels::check_picture;
 use super::whitted::{WhittedScene, check_precision};
 use super::whitted_pipeline::{WhittedPipeline, shader_of};
@@ -45,6 +44,17 @@ impl Primitives {
     fn of(primitives: &[Primitive]) -> Self {
         Self { list: primitives.to_vec(), extent: Extent::of(primitives), cost: TraversalCost::of(primitives) }
     }
+}
+
+/// What it took to begin a picture of another state.
+#[derive(Default)]
+pub(super) struct Begun {
+    /// Bytes.
+    pub uploaded: u64,
+    /// Whether binding sets made before are out of date.
+    pub needs_binding: bool,
+    /// Used no more.
+    pub dropped: Vec<Resource>,
 }
 
 /// A state of the scene.

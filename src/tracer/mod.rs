@@ -12,6 +12,7 @@ mod pixels;
 pub mod probe;
 mod proxies;
 mod records;
+mod rows;
 mod scene_kernel;
 mod settings;
 mod target;

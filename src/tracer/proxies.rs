@@ -5,7 +5,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use super::hierarchy::{Bounds, GROUP, Level};
-use super::whitted_records::{row, unit};
+use super::rows::{row, unit};
 use crate::plan::is_rotated;
 use crate::scene::{SceneSpace, Solid, SolidKind, world_from_box};
 

@@ -1,6 +1,5 @@
 //! The window and its events, from the first to the last.
 
-use std::path::PathBuf;
 use std::sync::Arc;
 
 use winit::application::ApplicationHandler;
@@ -10,35 +9,14 @@ use winit::event::WindowEvent;
 use winit::event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy};
 use winit::window::{Window, WindowId};
 
-use super::action::Kernel;
 use super::document::Document;
+use super::options::{Options, Wake};
 use super::preferences::{self, Preferences};
 use super::recovery::Recovery;
 use super::screen::ScreenError;
 use super::session::{NextFrame, Session};
 use super::state::State;
-use crate::gpu::{Messages, Validation};
-use crate::settings::RenderSettings;
-
-/// How to open the window.
-#[derive(Debug, Clone)]
-pub struct Options {
-    /// Number or part of the name of a device.
-    pub device: Option<String>,
-    pub validation: Validation,
-    /// Prints a line of JSON for every frame that differs from the last.
-    pub is_observed: bool,
-    /// Sources of the kernels, compiled anew when they change; in debug builds only.
-    pub watched_sources: Option<PathBuf>,
-    /// What draws at first instead of the usual kernel.
-    pub kernel: Option<Kernel>,
-    /// How to draw, before that, and what the panel offers besides the kernels.
-    pub setting: Option<RenderSettings>,
-    /// Acts as if the device was lost after so many frames.
-    pub lose_device_after: Option<u64>,
-    /// Where preferences and unsaved work are kept.
-    pub config_folder: Option<PathBuf>,
-}
+use crate::gpu::Messages;
 
 /// Why there is no window, or none any more.
 #[derive(Debug, thiserror::Error)]
@@ -65,15 +43,6 @@ impl ViewerError {
 fn without_place(error: &EventLoopError) -> String {
     let text = error.to_string();
     text.rsplit_once(": ").map_or(text.as_str(), |(_, reason)| reason).trim_end_matches('.').to_owned()
-}
-
-/// What other threads wake the window for.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Wake {
-    /// The accurate picture has come on, or a kernel was compiled.
-    News,
-    /// The program is to end.
-    Stop,
 }
 
 /// Closes the window from another thread; unsaved work is kept for the next run.

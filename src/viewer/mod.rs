@@ -14,6 +14,7 @@ pub mod frame_times;
 mod highlight;
 mod history;
 mod observer;
+mod options;
 pub mod outline;
 pub mod panel;
 pub mod pick;
@@ -30,8 +31,9 @@ mod shader_watch;
 pub mod state;
 pub mod text;
 
-pub use app::{Options, Stopper, ViewerError, run};
+pub use app::{Stopper, ViewerError, run};
 pub use document::Document;
+pub use options::Options;
 pub use picture_window::{Display, PictureWindow, Shown};
 pub use preferences::config_folder;
 pub use screen::ScreenError;

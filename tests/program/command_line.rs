@@ -12,16 +12,9 @@ use zerkalo::gpu;
 use zerkalo::scene::gallery;
 
 impl Place {
-    fn json(&self, arguments: &[&str]) -> Value {
-        let run = self.run(arguments);
-        assert_eq!((run.code, run.stderr.as_str()), (Some(0), ""), "{arguments:?}");
-        assert_eq!(run.stdout.lines().count(), 1, "one object on one line: {}", run.stdout);
-        serde_json::from_str(&run.stdout).unwrap()
-    }
-
     /// Runs what must fail with `code`, one line that holds all of `parts`, and no trace in the folder.
     #[track_caller]
-    fn assert_refused(&self, arguments: &[&str], code: i32, parts: &[&str]) {
+    fn assert_refused_in_one_line(&self, arguments: &[&str], code: i32, parts: &[&str]) {
         self.assert_command_refused(&mut self.command(arguments), code, parts);
     }
 
@@ -118,7 +111,7 @@ fn the_reference_draws_without_a_device_and_says_so() {
 
     for option in [&["--repeat", "2"][..], &["--validate"]] {
         let arguments = [&["--size", "80x35", "--algorithm", "reference"], option].concat();
-        place.assert_refused(&render("four", "y.exr", &arguments), 2, &[option[0]]);
+        place.assert_refused_in_one_line(&render("four", "y.exr", &arguments), 2, &[option[0]]);
     }
 }
 
@@ -153,16 +146,16 @@ fn compare_refuses_what_it_cannot_compare() {
     place.json(&render("four", "a.png", &["--size", "16x7", "--json"]));
     place.json(&render("four", "b.png", &["--size", "16x8", "--json"]));
     fs::write(place.path("noise.png"), [0x5A; 999]).unwrap();
-    place.assert_refused(&["compare", "a.png", "b.png"], 2, &["a.png", "b.png", "16x7", "16x8"]);
-    place.assert_refused(&["compare", "a.png", "none.png"], 2, &["none.png"]);
-    place.assert_refused(&["compare", "noise.png", "a.png"], 2, &["noise.png"]);
-    place.assert_refused(&["compare", "a.png", "a.gif"], 2, &["a.gif", ".png or .exr"]);
+    place.assert_refused_in_one_line(&["compare", "a.png", "b.png"], 2, &["a.png", "b.png", "16x7", "16x8"]);
+    place.assert_refused_in_one_line(&["compare", "a.png", "none.png"], 2, &["none.png"]);
+    place.assert_refused_in_one_line(&["compare", "noise.png", "a.png"], 2, &["noise.png"]);
+    place.assert_refused_in_one_line(&["compare", "a.png", "a.gif"], 2, &["a.gif", ".png or .exr"]);
 }
 
 #[test]
 fn an_unknown_scene_name_is_refused_and_says_where_names_are_listed() {
     let place = Place::new();
-    place.assert_refused(&render("showcas", "x.png", SMALL), 2, &["showcas", "zerkalo gallery"]);
+    place.assert_refused_in_one_line(&render("showcas", "x.png", SMALL), 2, &["showcas", "zerkalo gallery"]);
 }
 
 #[test]
@@ -183,13 +176,13 @@ fn a_broken_scene_file_is_refused_with_file_and_line_and_nothing_is_written() {
     ];
     for (name, text, part) in broken {
         fs::write(place.path(name), text).unwrap();
-        place.assert_refused(&render(name, "x.png", SMALL), 2, &[part]);
+        place.assert_refused_in_one_line(&render(name, "x.png", SMALL), 2, &[part]);
     }
     fs::write(place.path("bytes.toml"), [0xFF, 0xFE, 0x00, 0xC3]).unwrap();
-    place.assert_refused(&render("bytes.toml", "x.png", SMALL), 2, &["bytes.toml"]);
+    place.assert_refused_in_one_line(&render("bytes.toml", "x.png", SMALL), 2, &["bytes.toml"]);
     fs::create_dir(place.path("folder.toml")).unwrap();
-    place.assert_refused(&render("folder.toml", "x.png", SMALL), 2, &["folder.toml"]);
-    place.assert_refused(&render("missing.toml", "x.png", SMALL), 2, &["missing.toml"]);
+    place.assert_refused_in_one_line(&render("folder.toml", "x.png", SMALL), 2, &["folder.toml"]);
+    place.assert_refused_in_one_line(&render("missing.toml", "x.png", SMALL), 2, &["missing.toml"]);
 }
 
 #[test]
@@ -197,7 +190,11 @@ fn a_scene_that_the_kernel_cannot_draw_is_refused_with_the_reason() {
     let place = Place::new();
     fs::write(place.path("lights.toml"), "[[lights]]\n[[lights]]\nposition = [1, 2, 3]").unwrap();
     let course = [SMALL, &["--algorithm", "course"]].concat();
-    place.assert_refused(&render("lights.toml", "x.png", &course), 2, &["course kernel", "exactly one light", "2"]);
+    place.assert_refused_in_one_line(
+        &render("lights.toml", "x.png", &course),
+        2,
+        &["course kernel", "exactly one light", "2"],
+    );
     place.json(&render("lights.toml", "x.png", &[SMALL, &["--json"]].concat()));
 }
 
@@ -214,7 +211,7 @@ fn every_kernel_draws_in_the_precisions_that_it_has_and_refuses_the_other() {
     assert_eq!(report["kernel"], "course");
     for (kernel, precision) in [("course", "f64"), ("reference", "f32")] {
         let arguments = [SMALL, &["--algorithm", kernel, "--precision", precision]].concat();
-        place.assert_refused(&render("four", "y.exr", &arguments), 2, &[kernel, precision]);
+        place.assert_refused_in_one_line(&render("four", "y.exr", &arguments), 2, &[kernel, precision]);
     }
 }
 
@@ -235,7 +232,7 @@ fn samples_and_scale_are_the_whitted_kernel_s_alone() {
     for kernel in ["course", "plain", "reference"] {
         for (option, value) in [("--samples", "2"), ("--scale", "0.5")] {
             let arguments = [SMALL, &["--algorithm", kernel, option, value]].concat();
-            place.assert_refused(&render("four", "x.exr", &arguments), 2, &[option, "whitted algorithm"]);
+            place.assert_refused_in_one_line(&render("four", "x.exr", &arguments), 2, &[option, "whitted algorithm"]);
         }
     }
 }
@@ -244,7 +241,7 @@ fn samples_and_scale_are_the_whitted_kernel_s_alone() {
 fn a_refusal_leaves_an_older_picture_as_it_was() {
     let place = Place::new();
     fs::write(place.path("x.png"), "older").unwrap();
-    place.assert_refused(&render("no such scene", "x.png", SMALL), 2, &["no such scene"]);
+    place.assert_refused_in_one_line(&render("no such scene", "x.png", SMALL), 2, &["no such scene"]);
     assert_eq!(fs::read(place.path("x.png")).unwrap(), b"older");
 }
 
@@ -252,7 +249,7 @@ fn a_refusal_leaves_an_older_picture_as_it_was() {
 fn an_unknown_picture_format_is_refused() {
     let place = Place::new();
     for output in ["x.jpg", "x", ".png"] {
-        place.assert_refused(&render("four", output, SMALL), 2, &[output, ".png or .exr"]);
+        place.assert_refused_in_one_line(&render("four", output, SMALL), 2, &[output, ".png or .exr"]);
     }
 }
 
@@ -263,7 +260,7 @@ fn a_device_that_is_not_there_is_refused_with_the_list_of_those_that_are() {
     for wanted in ["nonsense", "99"] {
         let mut parts = vec![wanted];
         parts.extend(devices.iter().map(|device| device.name.as_str()));
-        place.assert_refused(&render("four", "x.png", &["--device", wanted]), 2, &parts);
+        place.assert_refused_in_one_line(&render("four", "x.png", &["--device", wanted]), 2, &parts);
         place.assert_command_refused(
             place.command(&render("four", "x.png", SMALL)).env("ZERKALO_DEVICE", wanted),
             2,
@@ -330,7 +327,7 @@ fn a_folder_that_is_not_there_is_the_machines_fault_and_told_before_the_render()
     let place = Place::new();
     // At full size and depth 1000 it would take minutes to get as far as the writing.
     let arguments = render("grid-sphere-100", "nowhere/x.png", &["--max-depth", "1000"]);
-    place.assert_refused(&arguments, 1, &["nowhere/x.png", "not a folder"]);
+    place.assert_refused_in_one_line(&arguments, 1, &["nowhere/x.png", "not a folder"]);
 }
 
 #[test]
@@ -403,7 +400,7 @@ fn gallery_lists_every_name_and_writes_the_committed_files() {
     }
 
     fs::write(place.path("file"), "").unwrap();
-    place.assert_refused(&["gallery", "--write", "file"], 1, &["could not create folder file"]);
+    place.assert_refused_in_one_line(&["gallery", "--write", "file"], 1, &["could not create folder file"]);
 }
 
 #[test]
@@ -549,7 +546,7 @@ fn render_tells_the_bound_on_what_an_allowed_error_changed() {
     assert!(run.stdout.contains("at most ") && run.stdout.lines().count() == 1, "{}", run.stdout);
     for kernel in ["course", "reference"] {
         let arguments = [SMALL, &["--algorithm", kernel, "--error", "1/50"]].concat();
-        place.assert_refused(&render("four", "y.exr", &arguments), 2, &["whitted", "error"]);
+        place.assert_refused_in_one_line(&render("four", "y.exr", &arguments), 2, &["whitted", "error"]);
     }
 }
 
@@ -566,7 +563,11 @@ fn plan_needs_no_device() {
         assert_eq!((&report["device"], &report["bound"]), (&Value::Null, &0.0.into()));
     }
     assert_eq!(without_driver.stdout, unasked.stdout);
-    place.assert_refused(&["plan", "four", "--precision", "f64", "--no-device"], 2, &["f64", "shaderFloat64"]);
+    place.assert_refused_in_one_line(
+        &["plan", "four", "--precision", "f64", "--no-device"],
+        2,
+        &["f64", "shaderFloat64"],
+    );
 }
 
 #[test]
@@ -580,8 +581,8 @@ fn plan_refuses_wrong_wishes() {
     for arguments in [&["--max-depth", "0"][..], &["--size", "0x1"], &["--precision", "f16"], &["--error"]] {
         assert_eq!(place.run(&[&["plan", "four"], arguments].concat()).code, Some(2), "{arguments:?}");
     }
-    place.assert_refused(&["plan", "no such scene"], 2, &["no such scene", "zerkalo gallery"]);
-    place.assert_refused(&["plan", "four", "--device", "nonsense"], 2, &["nonsense"]);
+    place.assert_refused_in_one_line(&["plan", "no such scene"], 2, &["no such scene", "zerkalo gallery"]);
+    place.assert_refused_in_one_line(&["plan", "four", "--device", "nonsense"], 2, &["nonsense"]);
 }
 
 #[test]

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
+use serde_json::Value;
+
 use tempfile::TempDir;
 
 /// A folder to run the program in.
@@ -32,6 +34,34 @@ impl Place {
     }
 
     /// All names in the folder, hidden ones too.
+    /// What the program prints where it has nothing to complain of.
+    #[track_caller]
+    pub fn run_well(&self, arguments: &[&str]) -> String {
+        let run = self.run(arguments);
+        assert_eq!((run.code, run.complaints()), (Some(0), vec![]), "{arguments:?}: {run:?}");
+        run.stdout
+    }
+
+    /// The one object that `--json`, which need not be among the arguments, prints in one line.
+    #[track_caller]
+    pub fn json(&self, arguments: &[&str]) -> Value {
+        let json: &[&str] = if arguments.contains(&"--json") { &[] } else { &["--json"] };
+        let stdout = self.run_well(&[arguments, json].concat());
+        assert_eq!(stdout.lines().count(), 1, "one object on one line");
+        serde_json::from_str(&stdout).unwrap()
+    }
+
+    /// Runs what must fail with `code`, a complaint that holds all `parts`, and no trace in the folder.
+    #[track_caller]
+    pub fn assert_refused(&self, arguments: &[&str], code: i32, parts: &[&str]) {
+        let before = self.names();
+        let run = self.run(arguments);
+        assert_eq!((run.code, run.stdout.as_str()), (Some(code), ""), "{arguments:?}: {run:?}");
+        assert!(parts.iter().all(|part| run.stderr.contains(part)), "{parts:?} are not in: {}", run.stderr);
+        assert!(run.stderr.starts_with("error: ") || run.stderr.lines().count() == 1, "{}", run.stderr);
+        assert_eq!(self.names(), before, "{arguments:?} left something");
+    }
+
     pub fn names(&self) -> BTreeSet<String> {
         names_in(self.folder.path())
     }

@@ -16,7 +16,7 @@ use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use super::Precision;
-use super::precision::brightest_source;
+use super::ceiling::brightest_source;
 use super::solids::{from_face_planes, outside_by, size};
 use crate::reference::{PrimaryRays, World};
 use crate::scene::{BoundingSphere, Light, Primitive, Scene, SceneSpace, Solid};

@@ -16,9 +16,9 @@ use winit::window::Window;
 
 use self::precision::Chosen;
 use super::action::{Action, Effect};
-use super::app::{Options, Wake};
 use super::frame_times::FrameTimes;
 use super::observer::Observer;
+use super::options::{Options, Wake};
 use super::panel::Panel;
 use super::picture_input::PictureInput;
 use super::recovery::Recovery;

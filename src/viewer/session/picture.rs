@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::super::action::Kernel;
-use super::super::app::Wake;
+use super::super::options::Wake;
 use super::super::reference_worker::ReferenceWorker;
 use super::super::screen::ScreenError;
 use super::super::state::Message;
