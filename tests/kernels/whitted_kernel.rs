@@ -237,18 +237,15 @@ fn a_picture_that_the_device_gives_up_on_is_an_error() {
     let device = TestDevice::open();
     let behind = primitive(sphere(DVec3::NEG_Z * 50.0, 1.0), mirror());
     let scene = Scene { primitives: vec![behind; 700_000], background: DVec3::ONE, lights: vec![], ..Scene::default() };
-    let plain = settings(Precision::F32, 8, 8);
+    // Of so many, one by one, a ray takes more iterations than Mesa's CPU drivers grant.
+    let plain = Settings { without_boxes: true, ..settings(Precision::F32, 8, 8) };
     let mut tracer = Tracer::new(&device, &scene, &plain).unwrap();
     let mut frame = tracer.frame().unwrap();
     for (samples, scale) in [(1, 1.0), (2, 0.5)] {
         tracer.set_scene(&scene, &Settings { samples, scale, ..plain.clone() }).unwrap();
         match tracer.render(&mut frame, &mut |_| ControlFlow::Continue(())) {
             Ok(_) => {
-                assert_ne!(
-                    device.description().kind,
-                    DeviceKind::Cpu,
-                    "Mesa's CPU drivers end loops, and it was not seen"
-                );
+                assert_ne!(device.description().kind, DeviceKind::Cpu, "such drivers end loops, and it was not seen");
                 assert!(frame.pixels().iter().all(|&pixel| pixel == [1.0; 3]), "drawn, but not what is there");
             }
             Err(error) => {
