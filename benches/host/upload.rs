@@ -16,7 +16,12 @@ pub fn benches(criterion: &mut Criterion) {
     for name in ["grid-cone-100", "cloud-100000"] {
         let scene = crate::scene(name);
         for precision in [Precision::F32, Precision::F64] {
-            let records = WhittedRecords::of(&scene, scene_space(&scene, precision), precision, [1621, 701]);
+            let records = WhittedRecords::of(
+                &scene,
+                scene_space(&scene, zerkalo::tracer::Kernel::Whitted(precision)),
+                precision,
+                [1621, 701],
+            );
             group.throughput(Throughput::Elements(scene.primitives.len() as u64));
             group.bench_function(format!("{name}, {}", precision.name()), |bencher| {
                 bencher.iter(|| upload_scene(&device, &records, precision).map(|resources| resources.len()));

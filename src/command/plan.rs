@@ -81,7 +81,7 @@ pub fn run(args: &PlanArgs) -> Result<()> {
             width,
             height,
             device,
-            error: plan.error,
+            error: plan.settings.error,
             bound: plan.bounds.total(),
             bounds: plan.bounds,
             approximations: plan.approximations,

@@ -1,7 +1,7 @@
 //! What a scene takes of a device's memory.
 
-use super::{Limits, PlanError, Precision, Structure, is_close_up};
-use crate::scene::{Scene, SolidKind};
+use super::{Limits, PlanError, Precision, Structure};
+use crate::scene::SolidKind;
 
 /// Rows of four numbers in the kernel's records: of a solid of each kind, of its proxy, of a box around solids, a
 /// material, the view and a light (`glsl/whitted/scene.glsl`).
@@ -20,9 +20,10 @@ pub(crate) fn solid_row_count(kind: SolidKind, is_close_up: bool) -> usize {
 
 /// Refuses a scene that does not fit the device's arrays. Solids and boxes come in whole groups.
 pub(super) fn check_arrays(
-    scene: &Scene,
     counts: [usize; 4],
+    lights: usize,
     precision: Precision,
+    is_close_up: bool,
     limits: &Limits,
 ) -> Result<(), PlanError> {
     let whole = |count: usize| count.next_multiple_of(Structure::GROUP);
@@ -34,7 +35,6 @@ pub(super) fn check_arrays(
         (1..=levels).map(|level| whole(count.div_ceil(Structure::GROUP.pow(level)))).sum()
     };
     let of_kind = |kind: usize| PROXY_ROWS[kind] * whole(counts[kind]) + BOX_ROWS * boxes_over(counts[kind]);
-    let is_close_up = is_close_up(scene, precision);
     let [spheres, boxes, cylinders, cones] =
         SolidKind::ALL.map(|kind| solid_row_count(kind, is_close_up) * whole(counts[kind as usize]));
     let row_bytes = match precision {
@@ -42,7 +42,7 @@ pub(super) fn check_arrays(
         Precision::F64 => 32,
     };
     let own = [
-        ("view and lights", VIEW_ROWS + LIGHT_ROWS * scene.lights.len()),
+        ("view and lights", VIEW_ROWS + LIGHT_ROWS * lights),
         ("spheres", spheres),
         ("boxes", boxes),
         ("cylinders", cylinders),

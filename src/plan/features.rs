@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 
 use super::solids::is_rotated;
-use super::{Plan, Structure, scene_space};
+use super::{Plan, Structure};
 use crate::algorithm::Precision;
-use crate::scene::{BoundingSphere, Primitive, Scene, SolidKind};
+use crate::scene::{BoundingSphere, Primitive, SceneSpace, SolidKind};
 
 /// What the accurate kernel is compiled for, apart from its precision and its workgroup: its specialization constants.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -41,8 +41,8 @@ pub(super) struct Kept {
 impl Kept {
     /// Without those so small that their squares leave the range of the precision: against the scene they are nothing
     /// that a pixel could show.
-    pub fn of(scene: &Scene, precision: Precision) -> Self {
-        let least = precision.smallest_length() / scene_space(scene, precision).scale;
+    pub fn of(primitives: &[Primitive], precision: Precision, space: &SceneSpace) -> Self {
+        let least = precision.smallest_length() / space.scale;
         let is_kept = |primitive: &&Primitive| BoundingSphere::of(&primitive.solid).radius >= least;
         let one = |primitive: &Primitive| {
             let mut counts = [0; 4];
@@ -54,7 +54,7 @@ impl Kept {
             counts: std::array::from_fn(|kind| a.counts[kind] + b.counts[kind]),
             rotated_boxes: a.rotated_boxes + b.rotated_boxes,
         };
-        scene.primitives.par_iter().filter(is_kept).map(one).reduce(none, sum)
+        primitives.par_iter().filter(is_kept).map(one).reduce(none, sum)
     }
 }
 

@@ -15,6 +15,7 @@ mod arrays;
 mod budget;
 mod ceiling;
 mod features;
+mod lengths;
 mod light_spheres;
 mod precision;
 mod reason;
@@ -27,9 +28,11 @@ pub use crate::algorithm::Precision;
 pub(crate) use arrays::{LIGHT_ROWS, MATERIAL_ROWS, VIEW_ROWS, solid_row_count};
 pub use budget::{Approximations, Bounds};
 pub use features::Features;
+pub use lengths::scene_space;
+pub(crate) use lengths::scene_space_within;
 pub use light_spheres::Area;
 pub use reason::{Line, Reason};
-pub use rounding::{Cause, Near, Rounding, is_close_up, scene_space};
+pub use rounding::{Cause, Near, Rounding};
 pub use tiling::{tile_side, tried_under_boxes};
 pub use traversal_cost::{CPU_MAX_ITERATIONS, MOST_PIXELS, TraversalCost};
 
@@ -42,6 +45,7 @@ use crate::settings::{Contradiction, RenderSettings};
 use arrays::check_arrays;
 use budget::{Spent, Transport, spend};
 use features::Kept;
+use lengths::Lengths;
 use solids::is_lone_and_seen_from_outside;
 pub(crate) use solids::is_rotated;
 
@@ -175,11 +179,9 @@ pub struct Plan {
     pub pixels: Decision<u32>,
     /// Side of what one submission traces, pixels.
     pub tile_side: Decision<u32>,
-    /// The allowed error.
-    pub error: f64,
-    /// What it bought.
+    /// What the allowed error bought.
     pub approximations: Approximations,
-    /// What that can change; its total is at most `error`.
+    /// What that can change; its total is at most [`RenderSettings::error`].
     pub bounds: Bounds,
 }
 
@@ -200,19 +202,27 @@ impl Plan {
             return Err(PlanError::Size { width, height });
         }
         let row = settings.algorithm.description();
+        let kernel_in = |precision| settings.algorithm.kernel(precision).ok_or(PlanError::NotOnDevice(row.name));
         let transport = Transport::of(scene);
         let is_lone = is_lone_and_seen_from_outside(scene);
-        let (mut precision, rounding) = precision::choose(scene, settings, size, limits)?;
+        let lengths = Lengths::of(scene);
+        let (mut precision, rounding) = precision::choose(&lengths, settings, size, limits)?;
+        let mut kernel = kernel_in(precision.choice)?;
+        let mut kept = Kept::of(&scene.primitives, precision.choice, &lengths.space(kernel));
+        let fits = |kept: &Kept, kernel: Kernel| {
+            let is_close_up = lengths.close_up(kernel).is_some();
+            check_arrays(kept.counts, scene.lights.len(), kernel.precision(), is_close_up, limits)
+        };
         // A wrong picture with a word is better than none.
         if matches!(precision.reason, Reason::RoundingSpoils { .. } | Reason::RoundingIsUnknown { .. })
-            && check_arrays(scene, Kept::of(scene, precision.choice).counts, precision.choice, limits).is_err()
+            && fits(&kept, kernel).is_err()
         {
             precision.choice = Precision::F32;
+            kernel = kernel_in(precision.choice)?;
+            kept = Kept::of(&scene.primitives, precision.choice, &lengths.space(kernel));
         }
-        let kernel = settings.algorithm.kernel(precision.choice).ok_or(PlanError::NotOnDevice(row.name))?;
-        let kept = Kept::of(scene, precision.choice);
+        fits(&kept, kernel)?;
         let counts = kept.counts;
-        check_arrays(scene, counts, precision.choice, limits)?;
 
         let lights = lights(scene, &transport);
         let is_lit = lights.choice > 0;
@@ -224,12 +234,16 @@ impl Plan {
         let Spent { approximations, bounds, .. } = spent;
         let generations = approximated_generations(generations, &spent);
         let light_spheres = light_spheres::decide(scene, size);
-        let approximations = Approximations {
-            light_spheres: light_spheres.choice > 0,
-            lights: is_lit,
-            shadows: shadows.choice,
-            reflections: generations.choice > 1,
-            ..approximations
+        let approximations = if row.approximates {
+            Approximations {
+                light_spheres: light_spheres.choice > 0,
+                lights: is_lit,
+                shadows: shadows.choice,
+                reflections: generations.choice > 1,
+                ..approximations
+            }
+        } else {
+            Approximations::NONE
         };
         Ok(Self {
             settings: *settings,
@@ -242,7 +256,7 @@ impl Plan {
             lights,
             shadows,
             highlights: approximated_highlights(highlights, &spent),
-            close_up: rounding::close_up_ratio(scene, precision.choice).filter(|_| row.is_accurate),
+            close_up: lengths.close_up(kernel),
             precision,
             rounding,
             structures: Structure::decide(counts, settings),
@@ -250,7 +264,6 @@ impl Plan {
             pixels: traversal_cost::decide(scene, generations.choice, limits),
             tile_side: tiling::decide(scene, generations.choice, limits),
             generations,
-            error: settings.error,
             approximations,
             bounds,
         })
@@ -267,8 +280,7 @@ impl Plan {
     pub fn with_f32_tried(mut self, scene: &Scene) -> Self {
         let is_accurate = self.settings.algorithm.description().is_accurate;
         if is_accurate && self.precision.choice == Precision::F32 && self.rounding.is_none() {
-            let shift_pixels = precision::silhouette_shift_pixels(scene, self.size, Precision::F32);
-            self.rounding = Some(precision::rounding_to_f32(scene, &self.settings, self.size, shift_pixels));
+            self.rounding = Some(precision::try_f32(&Lengths::of(scene), &self.settings, self.size));
         }
         self
     }

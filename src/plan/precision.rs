@@ -3,11 +3,12 @@
 use glam::DVec3;
 
 use super::ceiling::brightest_source;
-use super::rounding::{self, Rounding, is_close_up};
+use super::lengths::Lengths;
+use super::rounding::{self, Rounding};
 use super::solids::{self, outside_by};
 use super::{Decision, Limits, PlanError, Reason};
-use crate::algorithm::Precision;
-use crate::scene::{Camera, Projection, Scene, Solid};
+use crate::algorithm::{Kernel, Precision};
+use crate::scene::{Camera, Projection, Solid};
 use crate::settings::RenderSettings;
 
 /// Silhouettes that move by less change only pixels that they run through.
@@ -16,7 +17,7 @@ const LARGEST_SHIFT_PIXELS: f64 = 0.5;
 /// As asked for, else f32 unless that is known to be wrong, or an error is allowed that f32 may exceed by rounding alone;
 /// with what rounding to f32 does, where that was looked at.
 pub(super) fn choose(
-    scene: &Scene,
+    lengths: &Lengths,
     settings: &RenderSettings,
     size: [u32; 2],
     limits: &Limits,
@@ -30,9 +31,9 @@ pub(super) fn choose(
         Some(precision) => return Ok((decide(precision, Reason::Asked), None)),
         None => {}
     }
-    let shift_pixels = silhouette_shift_pixels(scene, size, Precision::F32);
-    let tolerance = Precision::F32.rounding_tolerance() * brightest_source(scene).max(1.0);
-    let rounding = rounding_to_f32(scene, settings, size, shift_pixels);
+    let shift_pixels = silhouette_shift_pixels(lengths, size);
+    let tolerance = Precision::F32.rounding_tolerance() * brightest_source(lengths.scene).max(1.0);
+    let rounding = rounding_to_f32(lengths, settings, size, shift_pixels);
     let may_err = settings.error > 0.0;
     let (choice, reason) = match rounding {
         Rounding::Harmful { wrong, tried, cause } => (Precision::F64, Reason::RoundingSpoils { wrong, tried, cause }),
@@ -56,11 +57,16 @@ pub(super) fn choose(
 }
 
 /// What it does to the picture that is asked for, silhouettes of which it moves by so much.
-pub(super) fn rounding_to_f32(scene: &Scene, settings: &RenderSettings, size: [u32; 2], shift_pixels: f64) -> Rounding {
-    rounding::of_f32(scene, settings.max_depth.unwrap_or(scene.max_depth), size, shift_pixels)
+fn rounding_to_f32(lengths: &Lengths, settings: &RenderSettings, size: [u32; 2], shift_pixels: f64) -> Rounding {
+    rounding::of_f32(lengths, settings.max_depth.unwrap_or(lengths.scene.max_depth), size, shift_pixels)
 }
 
-/// No silhouette that the camera sees directly is drawn farther than that from where it is, in pixels. In mirrors there
+/// What rounding to `f32` does to the picture that is asked for.
+pub(super) fn try_f32(lengths: &Lengths, settings: &RenderSettings, size: [u32; 2]) -> Rounding {
+    rounding_to_f32(lengths, settings, size, silhouette_shift_pixels(lengths, size))
+}
+
+/// No silhouette that the camera sees directly is drawn farther than that from where it is, in pixels, in `f32`. In mirrors there
 /// is no such bound: a round one multiplies an angle's error at every reflection.
 ///
 /// A kernel errs between hit and miss where the clearance is below 8u·size (docs/numerics.md, H); the stored solid is off by
@@ -69,10 +75,10 @@ pub(super) fn rounding_to_f32(scene: &Scene, settings: &RenderSettings, size: [u
 /// In a close-up the size's part is taken by the way from the solid's anchor. That is the point nearest to the camera, so
 /// that from a silhouette at a distance D it is at most 2D, and the place of the anchor at most D; of a cone the anchor is
 /// the apex.
-pub(super) fn silhouette_shift_pixels(scene: &Scene, size: [u32; 2], precision: Precision) -> f64 {
+fn silhouette_shift_pixels(lengths: &Lengths, size: [u32; 2]) -> f64 {
     let [width, height] = size.map(f64::from);
-    let u = precision.unit_roundoff();
-    let Camera { position, vertical_fov_degrees, projection, .. } = scene.camera;
+    let u = Precision::F32.unit_roundoff();
+    let Camera { position, vertical_fov_degrees, projection, .. } = lengths.scene.camera;
     let half_height = (vertical_fov_degrees.to_radians() / 2.0).tan();
     let half_width = half_height * width / height;
     // The window's farthest corner, and its height, in half extents.
@@ -83,7 +89,7 @@ pub(super) fn silhouette_shift_pixels(scene: &Scene, size: [u32; 2], precision: 
     let corner = (corner * half_width).hypot(corner * half_height);
     // A turn by dθ moves an image by dθ·(1 + r²), r being its distance from the axis in the plane at distance 1.
     let pixels_per_radian = (1.0 + corner * corner) * height / (window_height * half_height);
-    let is_close_up = is_close_up(scene, precision);
+    let is_close_up = lengths.close_up(Kernel::Whitted(Precision::F32)).is_some();
     let solid_shift = |solid: &Solid| {
         let size = match solid {
             Solid::Sphere { .. } | Solid::Box { .. } | Solid::Cylinder { .. } if is_close_up => return 9.0 * 2.0 + 1.0,
@@ -93,7 +99,7 @@ pub(super) fn silhouette_shift_pixels(scene: &Scene, size: [u32; 2], precision: 
         let distance = nearest_silhouette(solid, position);
         if distance > 0.0 { (9.0 * size + from_camera) / distance } else { 0.0 }
     };
-    let angle = scene.primitives.iter().map(|primitive| solid_shift(&primitive.solid)).fold(0.0, f64::max);
+    let angle = lengths.scene.primitives.iter().map(|primitive| solid_shift(&primitive.solid)).fold(0.0, f64::max);
     u * (angle + 32.0 * (1.0 + corner)) * pixels_per_radian
 }
 

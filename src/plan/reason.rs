@@ -361,7 +361,7 @@ impl Plan {
     }
 
     fn error_line(&self) -> Line {
-        let Self { error, bounds, .. } = self;
+        let (error, bounds) = (self.settings.error, &self.bounds);
         let why = if bounds.total() == 0.0 {
             "nothing is left out that a pixel could show".to_owned()
         } else {
@@ -370,7 +370,7 @@ impl Plan {
                 Short(bounds.highlights),
                 Short(bounds.generations),
                 Short(bounds.shadows),
-                Short(*error)
+                Short(error)
             )
         };
         Line { what: "error", choice: Short(bounds.total()).to_string(), why, saves: None }

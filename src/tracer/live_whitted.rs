@@ -12,8 +12,8 @@ use super::whitted_pipeline::{WhittedPipeline, shader_of};
 use super::whitted_records::{SolidRecords, WhittedRecords};
 use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Texel, Use};
-use crate::plan::{self, Precision, TraversalCost};
-use crate::scene::{Extent, Primitive, Scene, SceneSpace};
+use crate::plan::{Precision, TraversalCost, scene_space_within};
+use crate::scene::{Extent, Primitive, Scene};
 use crate::settings::sampling::Sampling;
 
 /// The kernel with the state that it began last.
@@ -106,9 +106,7 @@ impl LiveWhitted {
         let same = self.begun.as_ref().filter(|begun| begun.primitives.list == scene.primitives);
         let primitives =
             same.map_or_else(|| Arc::new(Primitives::of(&scene.primitives)), |begun| begun.primitives.clone());
-        let is_close_up = self.kernel == Kernel::Whitted(precision) && plan::is_close_up(scene, precision);
-        let frame =
-            if is_close_up { SceneSpace::close_up(scene) } else { primitives.extent.frame(scene.camera.position) };
+        let frame = scene_space_within(scene, &primitives.extent, self.kernel);
         let last = self.begun.as_ref().map(|begun| &begun.records.solids).filter(|solids| solids.frame == frame);
         let solids = match last {
             Some(solids) if same.is_some() => solids.clone(),

@@ -38,7 +38,7 @@ pub use records::{
 pub use crate::algorithm::{Kernel, Precision};
 pub use crate::plan::Features;
 pub use settings::Settings;
-pub use whitted::{check_precision, scene_bindings, scene_space, upload_scene};
+pub use whitted::{check_precision, scene_bindings, upload_scene};
 pub use whitted_records::{SolidRecords, WhittedPushConstants, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};

@@ -54,20 +54,16 @@ impl Settings {
     /// As a plan has it.
     pub fn planned(plan: &Plan) -> Self {
         let [width, height] = plan.size;
-        let exact = Self {
+        Self {
             max_depth: Some(plan.generations.choice),
             max_tile_side: plan.tile_side.choice,
             workgroup: plan.workgroup.choice,
             kernel: plan.kernel,
             samples: plan.settings.samples,
             scale: plan.settings.scale,
+            approximations: plan.approximations,
+            without_boxes: plan.is_without_boxes(),
             ..Self::new(width, height)
-        };
-        let is_without_boxes = plan.is_without_boxes();
-        if plan.settings.algorithm.description().approximates {
-            Self { approximations: plan.approximations, without_boxes: is_without_boxes, ..exact }
-        } else {
-            exact
         }
     }
 

@@ -7,8 +7,8 @@ use glam::DVec3;
 use super::whitted_records::{WhittedPushConstants, WhittedRecords};
 use super::{Kernel, TracerError};
 use crate::gpu::{BindingKind, Buffer, BufferKind, Device, GpuError, Resource, Texel};
-use crate::plan::{self, Approximations, Area, Features, MOST_PIXELS, Precision};
-use crate::scene::{Scene, SceneSpace};
+use crate::plan::{Approximations, Area, Features, MOST_PIXELS, Precision, scene_space};
+use crate::scene::Scene;
 use crate::settings::sampling::Sampling;
 
 impl Precision {
@@ -53,15 +53,6 @@ pub fn scene_bindings(precision: Precision) -> [BindingKind; 7] {
     let mut bindings = [BindingKind::Texels(precision.texel()); 7];
     bindings[1] = BindingKind::Texels(Texel::Floats);
     bindings
-}
-
-/// The frame that a kernel calculates a scene's picture in. The plain one knows no close-ups, which the textbook does not
-/// know.
-pub fn scene_space(scene: &Scene, kernel: Kernel) -> SceneSpace {
-    match kernel {
-        Kernel::Whitted(precision) => plan::scene_space(scene, precision),
-        Kernel::Plain | Kernel::Course => SceneSpace::of(scene),
-    }
 }
 
 /// Refuses a precision that the device does not have.

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use super::{Run, Scope};
-use crate::tracer::{Features, Kernel, Settings, WORKGROUP, WhittedRecords, scene_space};
+use crate::plan::scene_space;
+use crate::tracer::{Features, Kernel, Settings, WORKGROUP, WhittedRecords};
 
 /// Runs in a row that are drawn by one shader.
 pub(super) fn by_shader(runs: &[Run]) -> impl Iterator<Item = &[Run]> {

@@ -281,7 +281,8 @@ fn a_scene_fits_the_device_exactly_where_the_kernels_records_do() {
         scene.primitives.push(primitive);
         for precision in [Precision::F32, Precision::F64] {
             let row_bytes = if precision == Precision::F32 { 16 } else { 32 };
-            let records = WhittedRecords::of(&scene, scene_space(&scene, precision), precision, [8, 8]);
+            let records =
+                WhittedRecords::of(&scene, scene_space(&scene, Kernel::Whitted(precision)), precision, [8, 8]);
             let proxies = records.solids.proxies.len() as u64 * 16;
             let own = records.buffers().map(|(_, rows)| rows.len() as u64 * row_bytes);
             let largest = own.into_iter().chain([proxies]).max().unwrap();
@@ -482,7 +483,7 @@ fn a_kernel_is_compiled_for_what_the_plan_says() {
         let error = if number % 3 == 0 { 0.01 } else { 0.0 };
         let settings = RenderSettings { precision: Some(precision), error, ..RenderSettings::default() };
         let plan = Plan::for_scene(&scene, &settings, [64, 28], &DEVICE).unwrap();
-        let records = WhittedRecords::of(&scene, scene_space(&scene, precision), precision, [64, 28]);
+        let records = WhittedRecords::of(&scene, scene_space(&scene, Kernel::Whitted(precision)), precision, [64, 28]);
         let compiled = Features::of(&records, &plan.approximations, plan.generations.choice);
         let compiled = Features { pixels: plan.pixels.choice, ..compiled };
         assert_eq!(plan.features(), compiled, "scene {number}: {scene:?}");

@@ -68,7 +68,12 @@ fn reached(device: &TestDevice, kernel: &Kernel, scene: &Scene, precision: Preci
     let limits = Limits { float64: true, max_array_bytes: 1 << 27, ..Limits::PROMISED };
     let settings = RenderSettings { precision: Some(precision), ..RenderSettings::default() };
     let plan = Plan::for_scene(scene, &settings, [SIZE.0, SIZE.1], &limits).unwrap();
-    let records = WhittedRecords::of(scene, scene_space(scene, precision), precision, [SIZE.0, SIZE.1]);
+    let records = WhittedRecords::of(
+        scene,
+        scene_space(scene, zerkalo::algorithm::Kernel::Whitted(precision)),
+        precision,
+        [SIZE.0, SIZE.1],
+    );
     let features = Features::of(&records, &plan.approximations, plan.generations.choice);
     kernel.reached(&features.constants(device, precision, plan.workgroup.choice).unwrap())
 }

@@ -113,7 +113,8 @@ fn a_camera_may_fly_down_to_a_planet_and_up_again() {
     for (height, is_close_up) in [(1e7, false), (2.0, true), (3.0, true), (1e7, false)] {
         scene.camera.position.y = 6.371e6 + height;
         scene.camera.direction.y = if is_close_up { -0.05 } else { -2.0 };
-        assert_eq!(zerkalo::plan::is_close_up(&scene, Precision::F32), is_close_up);
+        let space = zerkalo::plan::scene_space(&scene, Kernel::Whitted(Precision::F32));
+        assert_eq!(space.is_close_up, is_close_up);
         let (frame, _) = easel.draw(&scene);
         let expected = rendered_by(&mut tracers, Kernel::Whitted(Precision::F32), &scene, size);
         assert!(frame == expected, "at {height}");

@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use zerkalo::frame::Frame;
-use zerkalo::plan::{MOST_PIXELS, TraversalCost};
+use zerkalo::plan::{MOST_PIXELS, TraversalCost, scene_space};
 use zerkalo::scene::Scene;
-use zerkalo::tracer::{Features, Kernel, Settings, Tracer, WhittedRecords, scene_space};
+use zerkalo::tracer::{Features, Kernel, Settings, Tracer, WhittedRecords};
 
 use crate::common::TestDevice;
 

@@ -12,14 +12,16 @@ mod world;
 
 use std::fmt;
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use rayon::prelude::*;
 
 use super::Precision;
 use super::ceiling::brightest_source;
+use super::lengths::{Lengths, MILD_RATIO};
 use super::solids::{from_face_planes, outside_by, size};
+use crate::algorithm::Kernel;
 use crate::reference::{PrimaryRays, World};
-use crate::scene::{BoundingSphere, Light, Primitive, Scene, SceneSpace, Solid};
+use crate::scene::{Light, Primitive, Scene, SceneSpace, Solid};
 use world::F32World;
 
 /// What rounding to `f32` does to a picture, as far as is known.
@@ -94,6 +96,9 @@ impl fmt::Display for Short {
     }
 }
 
+/// What is tried.
+const F32: Kernel = Kernel::Whitted(Precision::F32);
+
 /// Pixels that are tried, at most and, where that takes no longer than a second or so, at least.
 const MOST_TRIED: usize = 2048;
 const FEWEST_TRIED: usize = 64;
@@ -123,10 +128,6 @@ impl Doubt {
     }
 }
 
-/// In scenes whose lengths differ by less than that, a surface moves by at most 8u of that, four thousandths of the
-/// smallest solid.
-const MILD_RATIO: f64 = 8192.0;
-
 /// An angle's error is at most that of a surface, 8u, against its size; where mirrors magnify it to less than 1/510, it is
 /// not seen.
 const MILD_RATIO_IN_MIRRORS: f64 = 1.0 / (510.0 * 8.0 * (f32::EPSILON as f64 / 2.0));
@@ -138,37 +139,17 @@ const MILD_SHIFT_PIXELS: f64 = 0.25;
 /// nearer to each other than most.
 const MIRROR_GAIN: f64 = 5.0;
 
-/// Solids of a scene that close-ups are made of, at most: they are told anew for each place of the camera.
-const MOST_SOLIDS_NEARBY: usize = 4096;
-
-/// How many times the smallest length the scene is, where the kernel draws it as a close-up for that: where `f32` would
-/// else lose the small in the large.
-pub(super) fn close_up_ratio(scene: &Scene, precision: Precision) -> Option<f64> {
-    let is_short = (1..=MOST_SOLIDS_NEARBY).contains(&scene.primitives.len());
-    let ratio = || Some(ratio_of_lengths(scene)).filter(|&ratio| ratio > MILD_RATIO);
-    if precision == Precision::F32 && is_short { ratio() } else { None }
-}
-
-/// Whether the kernel draws a scene as a close-up.
-pub fn is_close_up(scene: &Scene, precision: Precision) -> bool {
-    close_up_ratio(scene, precision).is_some()
-}
-
-/// The frame that the accurate kernel calculates a scene's picture in.
-pub fn scene_space(scene: &Scene, precision: Precision) -> SceneSpace {
-    if is_close_up(scene, precision) { SceneSpace::close_up(scene) } else { SceneSpace::of(scene) }
-}
-
 /// For a picture of so many pixels in `depth` generations, silhouettes of which that are seen directly move by no more than
 /// `shift_pixels`.
-pub fn of_f32(scene: &Scene, depth: u32, size: [u32; 2], shift_pixels: f64) -> Rounding {
+pub fn of_f32(lengths: &Lengths, depth: u32, size: [u32; 2], shift_pixels: f64) -> Rounding {
+    let scene = lengths.scene;
     if scene.primitives.is_empty() {
         return Rounding::Mild;
     }
-    let ratio = ratio_of_lengths(scene);
+    let ratio = lengths.ratio();
     let are_lengths_mild = shift_pixels <= MILD_SHIFT_PIXELS && ratio <= MILD_RATIO;
     let are_mirrors_mild = ratio * gain_of_mirrors(scene, depth) <= MILD_RATIO_IN_MIRRORS;
-    let doubt = match (are_lengths_mild && !has_grazing_light(scene), are_mirrors_mild) {
+    let doubt = match (are_lengths_mild && !has_grazing_light(lengths), are_mirrors_mild) {
         (true, true) => return Rounding::Mild,
         (true, false) => Doubt::Mirrors,
         (false, _) => Doubt::Lengths,
@@ -178,8 +159,7 @@ pub fn of_f32(scene: &Scene, depth: u32, size: [u32; 2], shift_pixels: f64) -> R
         // Of so many solids of one size, a few faces or images in images are not seen.
         (true, true) => Rounding::Mild,
         (true, false) => Rounding::Unknown { ratio },
-        (false, _) if depth == scene.max_depth => try_pixels(scene, size, count, doubt),
-        (false, _) => try_pixels(&Scene { max_depth: depth, ..scene.clone() }, size, count, doubt),
+        (false, _) => try_pixels(lengths, depth, size, count, doubt),
     }
 }
 
@@ -190,31 +170,15 @@ fn rays_of_pixel(scene: &Scene, depth: u32) -> f64 {
     generations * (1 + scene.lights.len()) as f64
 }
 
-/// No coordinate is larger, nor a size, seen from where the kernel does.
-fn extent(scene: &Scene) -> f64 {
-    2.0 / SceneSpace::of(scene).scale
-}
-
 /// Whether a light is above the plane of a flat face by so little that `f32` takes it for one in the plane: then the face
 /// loses its highlight.
-fn has_grazing_light(scene: &Scene) -> bool {
-    let least = extent(scene) / MILD_RATIO;
+fn has_grazing_light(lengths: &Lengths) -> bool {
+    let scene = lengths.scene;
+    let least = lengths.extent() / MILD_RATIO;
     let grazes = |light: &Light| {
         scene.primitives.par_iter().any(|primitive| from_face_planes(&primitive.solid, light.position) < least)
     };
     scene.lights.iter().any(grazes)
-}
-
-/// How many times the smallest solid, or the distance of the camera or a light from one, the whole scene is.
-fn ratio_of_lengths(scene: &Scene) -> f64 {
-    let nearest = |place: DVec3| {
-        let distance = |primitive: &Primitive| outside_by(&primitive.solid, place).abs();
-        scene.primitives.par_iter().map(distance).reduce(|| f64::INFINITY, f64::min)
-    };
-    let smallest = scene.primitives.par_iter().map(|primitive| BoundingSphere::of(&primitive.solid).radius);
-    let smallest = smallest.reduce(|| f64::INFINITY, f64::min);
-    let eyes = std::iter::once(scene.camera.position).chain(scene.lights.iter().map(|light| light.position));
-    extent(scene) / eyes.map(nearest).fold(smallest, f64::min)
 }
 
 /// How many times an error of an angle may be magnified, and then seen, by curved mirrors.
@@ -224,8 +188,10 @@ fn gain_of_mirrors(scene: &Scene, depth: u32) -> f64 {
     (MIRROR_GAIN * mirrors.fold(0.0, f64::max)).max(1.0).powi(depth as i32 - 1)
 }
 
-fn try_pixels(scene: &Scene, size: [u32; 2], count: usize, doubt: Doubt) -> Rounding {
-    let frame = scene_space(scene, Precision::F32);
+fn try_pixels(lengths: &Lengths, depth: u32, size: [u32; 2], count: usize, doubt: Doubt) -> Rounding {
+    let asked = (depth != lengths.scene.max_depth).then(|| Scene { max_depth: depth, ..lengths.scene.clone() });
+    let scene = asked.as_ref().unwrap_or(lengths.scene);
+    let frame = lengths.space(F32);
     let (exact, rounded) = (World::new(scene), F32World::new(scene, &frame));
     let rays = PrimaryRays::new(&scene.camera, size[0], size[1]);
     let pixels = pixels(size, count.min(MOST_TRIED));
@@ -292,6 +258,8 @@ fn cause(scene: &Scene, frame: &SceneSpace, met: &[usize]) -> Cause {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
     use crate::scene::gallery;
 
@@ -301,7 +269,8 @@ mod tests {
         for entry in gallery::entries() {
             let scene = gallery::scene(&entry.name).unwrap();
             if !scene.primitives.is_empty() {
-                let rounding = try_pixels(&scene, [1621, 701], MOST_TRIED, Doubt::Lengths);
+                let lengths = Lengths::of(&scene);
+                let rounding = try_pixels(&lengths, scene.max_depth, [1621, 701], MOST_TRIED, Doubt::Lengths);
                 assert!(matches!(rounding, Rounding::Harmless { .. }), "{}: {rounding:?}", entry.name);
             }
         }
@@ -309,13 +278,13 @@ mod tests {
 
     #[test]
     fn an_empty_scene_is_right_however_it_is_looked_at() {
-        assert_eq!(of_f32(&Scene::default(), 20, [1621, 701], 1e9), Rounding::Mild);
+        assert_eq!(of_f32(&Lengths::of(&Scene::default()), 20, [1621, 701], 1e9), Rounding::Mild);
     }
 
     #[test]
     fn what_would_take_too_long_to_try_is_not_known() {
         let mut scene = gallery::scene("cloud-100000").unwrap();
-        let of = |scene: &Scene| of_f32(scene, 1000, [1621, 701], 0.0);
+        let of = |scene: &Scene| of_f32(&Lengths::of(scene), 1000, [1621, 701], 0.0);
         scene.lights = vec![Light { position: DVec3::Y * 100.0, ..Light::default() }; 64];
         assert_eq!(of(&scene), Rounding::Mild, "like solids");
         let center = scene.primitives[0].solid.position();
@@ -331,7 +300,7 @@ mod tests {
                 (*center, *half_size, *rotation_degrees) = (DVec3::ZERO, DVec3::new(5.0, 1.0, 5.0), DVec3::ZERO);
             }
             scene.lights = vec![Light { position: DVec3::new(9.0, y, 0.3), ..Light::default() }];
-            has_grazing_light(&scene)
+            has_grazing_light(&Lengths::of(&scene))
         };
         assert_eq!([3.0, 1.0, 1.0 + 1e-6].map(grazes), [false, false, true]);
     }
@@ -340,7 +309,7 @@ mod tests {
     fn large_scenes_of_like_solids_stay_with_f32() {
         for name in ["squares-10000", "squares-1000000", "cloud-10000"] {
             let scene = gallery::scene(name).unwrap();
-            let rounding = of_f32(&scene, scene.max_depth, [1621, 701], 0.0);
+            let rounding = of_f32(&Lengths::of(&scene), scene.max_depth, [1621, 701], 0.0);
             assert!(!matches!(rounding, Rounding::Harmful { .. }), "{name}: {rounding:?}");
         }
     }
