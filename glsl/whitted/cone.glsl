@@ -99,7 +99,7 @@ Real depth(Cone cone, Real3 from_anchor) {
     return min(to_side, min(along, cone.height - along));
 }
 
-// The same in a close-up, each face by so many times what the place of a point may be off across it.
+// The same in a close-up, and so many times what the place of a point may be off.
 Real depth_with_errors(Cone cone, Real3 from_anchor, Real place, Real errors) {
     return depth(cone, from_anchor) + errors * SURFACE_ERROR * (place + largest_component(from_anchor));
 }

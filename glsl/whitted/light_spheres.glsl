@@ -1,8 +1,8 @@
 // Light spheres, which primary rays see.
 
-// Whether the ray may meet the light sphere: in float, on the safe side. Lights may lie beyond frame.reach, so that the rounding of
-// their centres goes by the distance too: u of it, and u more for that of a double's direction, besides the 16u of
-// DISTANCE_ERROR.
+// Whether the ray may meet the light sphere: in float, on the safe side. Lights may lie beyond frame.reach, so that the
+// rounding of their centres goes by the distance too: u of it, and u more for that of a double's direction, besides the 16u
+// of DISTANCE_ERROR.
 bool may_meet_light_sphere(Ray ray, Light light) {
     vec3 to_center = vec3(light.position) - vec3(ray.origin), direction = vec3(ray.direction);
     float ahead = dot(to_center, direction);
@@ -41,8 +41,9 @@ Real light_sphere_ahead(Ray ray, Light current_light, bool looks, out Real3 inte
         iterations++;
         Light sphere_light = light_with_sphere(i, current_light);
         Hit light_sphere;
-        // In a close-up about its centre, as there is nothing that touches it.
-        Sphere sphere = Sphere(sphere_light.position, sphere_light.sphere_radius, Real3(0.0), -0.5 * sphere_light.sphere_radius, Real3(0.0));
+        // Told from its centre in a close-up, too.
+        Curve about_center = Curve(Real3(0.0), -0.5 * sphere_light.sphere_radius, Real3(0.0));
+        Sphere sphere = Sphere(sphere_light.position, sphere_light.sphere_radius, about_center);
         bool is_met = meet(sphere, ray, FREE, CURVED, light_sphere);
         // From within there is nothing to see of it, nor of one without a radius.
         bool is_there = sphere_light.sphere_radius > 0.0 && !light_sphere.inside;

@@ -80,10 +80,10 @@ void tighten_by_box(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout
     tighten(is_there && is_deep, near + traversal.plane_error, sine, 1.0, traversal, found);
 }
 
-// A bounding sphere around the cylinder that encloses a solid: its centre, and the square of its radius, which is negative where there
-// is no solid. The radius is larger by what rounding may put a line off that: DISTANCE_ERROR of the distance, at
-// most 7 * frame.reach, are 7 place errors, proxies are wrong by up to 4, and the ray's place and direction by one.
-vec4 ball_around(vec3 center, float radius, float half_length, bool is_there) {
+// A bounding sphere around the cylinder that encloses a solid: its centre, and the square of its radius, which is negative
+// where there is no solid. The radius is larger by what rounding may put a line off that: DISTANCE_ERROR of the distance,
+// at most 7 * frame.reach, are 7 place errors, proxies are wrong by up to 4, and the ray's place and direction by one.
+vec4 sphere_around(vec3 center, float radius, float half_length, bool is_there) {
     float larger = 16.0 * place_error(), squared = radius * radius + half_length * half_length;
     // (r + larger)^2, of which r is no more than the sum of both; rounded a few times.
     squared += (2.0 * larger) * (radius + half_length + larger) + (16.0 * FLOAT_ROUNDOFF) * squared;
@@ -127,7 +127,7 @@ uint key_of_cylinder(vec4 a, vec4 b, TraversalRay traversal, int entry, uint k) 
     return key_of(near + (closest_t - 4.0 * place_error()), never, entry, k);
 }
 
-vec4 bounding_sphere_of_cylinder(vec4 a, vec4 b) { return ball_around(a.xyz, a.w, b.w, b.w >= 0.0); }
+vec4 bounding_sphere_of_cylinder(vec4 a, vec4 b) { return sphere_around(a.xyz, a.w, b.w, b.w >= 0.0); }
 
 void tighten_by_cylinder(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout Found found) {}
 
@@ -178,7 +178,7 @@ uint key_of_cone(vec4 a, vec4 b, TraversalRay traversal, int entry, uint k) {
 
 vec4 bounding_sphere_of_cone(vec4 a, vec4 b) {
     float half_height = 0.5 * a.w;
-    return ball_around(a.xyz + half_height * b.xyz, b.w, half_height, b.w >= 0.0);
+    return sphere_around(a.xyz + half_height * b.xyz, b.w, half_height, b.w >= 0.0);
 }
 
 void tighten_by_cone(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout Found found) {}

@@ -2,24 +2,30 @@
 // src/tracer/whitted_records.rs writes them.
 //
 // Scene space: the world frame with its origin among the solids, times a power of two that brings the farthest coordinate
-// of a solid, and of the camera, below 2. Within a kind the solids lie in the order of its hierarchy; the kinds lie behind each other, and
-// a primitive's place in that row is its slot.
+// of a solid, and of the camera, below 2. Within a kind the solids lie in the order of its hierarchy; the kinds lie behind
+// each other, and a primitive's place in that row is its slot.
 
-struct Sphere {
-    Real3 center;         // in a close-up the anchor
-    Real radius;
-    // In a close-up: the sphere's equation about the anchor, radius * (offset + slope . x + |x|^2 / (2 * radius)) = 0.
-    Real3 slope;          // + slope_error: from the centre to the anchor, in radii
+// Solids are told from an anchor: their middle, and in a close-up their point nearest to the camera; cones from their apex.
+
+// A round surface about an anchor, in a close-up: offset + slope . x + |x|^2 / (2 * radius) = 0.
+struct Curve {
+    Real3 slope;          // + slope_error: from the centre, or the axis, to the anchor, in radii
     Real offset;
     Real3 slope_error;
 };
 
+struct Sphere {
+    Real3 anchor;
+    Real radius;
+    Curve curve;
+};
+
 struct Box {
-    Real3 center;
-    Real size;      // the largest half size
-    Real3 half_size;      // in a close-up the upper faces', from the anchor
-    Real3 low;            // the lower faces', from there
-    Real3 axis_x;   // + axis_x_error: unit, scene space
+    Real3 anchor;
+    Real size;            // the largest half size
+    Real3 high;           // the places of the upper faces along the axes, from the anchor
+    Real3 low;            // and of the lower ones
+    Real3 axis_x;         // + axis_x_error: unit, scene space
     Real3 axis_y;
     Real3 axis_z;
     Real3 axis_x_error;
@@ -28,19 +34,16 @@ struct Box {
 };
 
 struct Cylinder {
-    Real3 center;       // + center_error: between the ends; in a close-up the anchor
+    Real3 anchor;         // + anchor_error
     Real radius;
-    Real3 center_error;
-    Real half_length;   // in a close-up the second end's place along the axis, from the anchor
-    Real low;           // the first end's, from there
-    Real3 axis;         // + axis_error: unit, from the first end to the second
-    Real size;          // the larger of radius and half length
+    Real3 anchor_error;
+    Real high;            // the place of the second end along the axis, from the anchor
+    Real low;             // and of the first
+    Real3 axis;           // + axis_error: unit, from the first end to the second
+    Real size;            // the larger of radius and half length; in a close-up of radius and length
     Real3 axis_error;
-    Real reach;         // of the bounding sphere about the centre, or the anchor
-    // In a close-up, across the axis, what a sphere has.
-    Real3 slope;
-    Real offset;
-    Real3 slope_error;
+    Real reach;           // of the bounding sphere about the anchor
+    Curve curve;          // across the axis
 };
 
 struct Cone {
@@ -137,28 +140,29 @@ Material material(uint slot) {
     return Material(a.xyz, a.w, b.x, b.y, uint(b.z));
 }
 
+const Curve NO_CURVE = Curve(Real3(0.0), Real(0.0), Real3(0.0));
+
 // The solids of a kind are counted by themselves.
 Sphere sphere(uint index) {
     if (IS_CLOSE_UP) {
         Real4 a = ROW(sphere_rows, 3u * index), b = ROW(sphere_rows, 3u * index + 1u);
-        return Sphere(a.xyz, a.w, b.xyz, b.w, ROW(sphere_rows, 3u * index + 2u).xyz);
+        return Sphere(a.xyz, a.w, Curve(b.xyz, b.w, ROW(sphere_rows, 3u * index + 2u).xyz));
     }
     Real4 a = ROW(sphere_rows, index);
-    return Sphere(a.xyz, a.w, Real3(0.0), Real(0.0), Real3(0.0));
+    return Sphere(a.xyz, a.w, NO_CURVE);
 }
 
 Box box(uint index) {
     uint first = 7u * index;
     Box box;
     Real4 a = ROW(box_rows, first);
-    box.center = a.xyz;
+    box.anchor = a.xyz;
     box.size = a.w;
     Real4 x = ROW(box_rows, first + 1u), y = ROW(box_rows, first + 2u), z = ROW(box_rows, first + 3u);
-    box.half_size = Real3(x.w, y.w, z.w);
-    box.low = -box.half_size;
-    if (IS_CLOSE_UP) {
-        for (uint k = 0u; k < 3u; k++) box.low[k] = ROW(box_rows, first + 4u + k).w;
-    }
+    box.high = Real3(x.w, y.w, z.w);
+    box.low = -box.high;
+    if (IS_CLOSE_UP)
+        box.low = Real3(ROW(box_rows, first + 4u).w, ROW(box_rows, first + 5u).w, ROW(box_rows, first + 6u).w);
     box.axis_x = ARE_BOXES_AXIS_ALIGNED ? Real3(1.0, 0.0, 0.0) : x.xyz;
     box.axis_y = ARE_BOXES_AXIS_ALIGNED ? Real3(0.0, 1.0, 0.0) : y.xyz;
     box.axis_z = ARE_BOXES_AXIS_ALIGNED ? Real3(0.0, 0.0, 1.0) : z.xyz;
@@ -175,9 +179,9 @@ Cylinder cylinder(uint index) {
     if (IS_CLOSE_UP) {
         Real4 e = ROW(cylinder_rows, first + 4u);
         Real size = max(a.w, b.w - c.w);
-        return Cylinder(a.xyz, a.w, Real3(0.0), b.w, c.w, c.xyz, size, d.xyz, d.w, b.xyz, e.w, e.xyz);
+        return Cylinder(a.xyz, a.w, Real3(0.0), b.w, c.w, c.xyz, size, d.xyz, d.w, Curve(b.xyz, e.w, e.xyz));
     }
-    return Cylinder(a.xyz, a.w, b.xyz, b.w, -b.w, c.xyz, c.w, d.xyz, d.w, Real3(0.0), Real(0.0), Real3(0.0));
+    return Cylinder(a.xyz, a.w, b.xyz, b.w, -b.w, c.xyz, c.w, d.xyz, d.w, NO_CURVE);
 }
 
 Cone cone(uint index) {

@@ -4,6 +4,7 @@
 #include "frame.glsl"
 #include "scene.glsl"
 #include "ray.glsl"
+#include "close_up.glsl"
 #include "sphere.glsl"
 #include "box.glsl"
 #include "axis.glsl"

@@ -5,31 +5,12 @@ struct SphereLine {
 };
 
 SphereLine line_of(Sphere sphere, Ray ray) {
-    return SphereLine(recentred(ray, sphere.center, Real3(0.0)));
-}
-
-// offset + slope . x + |x|^2 / (2 * radius): about the height above the sphere, where that is small.
-Real height_in_close_up(Sphere sphere, Sum3 x) {
-    precise Real bend = dot(x.value, x.value) / (2.0 * sphere.radius);
-    precise Real height = exact_dot(sphere.slope, sphere.slope_error, x) + (sphere.offset + bend);
-    return height;
-}
-
-// The quadratic of that along the line. Nothing cancels in it but heights.
-Interval interval_in_close_up(Sphere sphere, Line line) {
-    precise Real a = line.direction_squared / (2.0 * sphere.radius);
-    precise Real b = 0.5 * (exact_dot(sphere.slope, sphere.slope_error, Sum3(line.direction, Real3(0.0))) +
-                            dot(line.closest.value, line.direction) / sphere.radius);
-    precise Real c = height_in_close_up(sphere, line.closest);
-    precise Real discriminant = b * b - a * c;
-    if (discriminant < 0.0) return EMPTY;
-    Real low, high;
-    ordered_roots(a, b, c, Real(0.0), sqrt(discriminant), low, high);
-    return Interval(low, high, CURVED, CURVED);
+    return SphereLine(recentred(ray, sphere.anchor, Real3(0.0)));
 }
 
 Interval interval(Sphere sphere, SphereLine at) {
-    if (IS_CLOSE_UP) return interval_in_close_up(sphere, at.line);
+    if (IS_CLOSE_UP)
+        return interval(sphere.curve, sphere.radius, at.line.closest, at.line.direction, at.line.direction_squared);
 #if COMPENSATION
     precise Real distance_squared =
         dot(at.line.closest.value, at.line.closest.value) + 2.0 * dot(at.line.closest.value, at.line.closest.error);
@@ -53,34 +34,30 @@ Real depth(Sphere sphere, Real3 from_anchor) {
     return sphere.radius - sqrt(dot(from_anchor, from_anchor));
 }
 
-// From |slope * radius + x| = radius where the height is 0.
-Real depth_in_close_up(Sphere sphere, Sum3 x) {
-    Real3 from_center = sphere.radius * sphere.slope + x.value;
-    Real height = height_in_close_up(sphere, x);
-    return -2.0 * sphere.radius * height / (sphere.radius + sqrt(dot(from_center, from_center)));
-}
-
+// The same in a close-up, and so many times what the place of a point may be off.
 Real depth_with_errors(Sphere sphere, Real3 from_anchor, Real place, Real errors) {
-    Real size = largest_component(from_anchor) + abs(sphere.offset);
-    return depth_in_close_up(sphere, Sum3(from_anchor, Real3(0.0))) + errors * SURFACE_ERROR * (place + size);
+    Real size = largest_component(from_anchor) + abs(sphere.curve.offset);
+    return depth(sphere.curve, sphere.radius, Sum3(from_anchor, Real3(0.0))) + errors * SURFACE_ERROR * (place + size);
 }
 
 Real size(Sphere sphere) { return sphere.radius; }
 
-Real size_near(Sphere sphere, Real3 point) { return largest_component(point - sphere.center); }
+Real size_near(Sphere sphere, Real3 point) { return largest_component(point - sphere.anchor); }
 
 // Outward unit normal and point of a face, scene space.
 void surface(Sphere sphere, SphereLine at, Real s, uint face, out Real3 point, out Real3 normal) {
+    precise Real3 from_anchor = at.line.closest.value + (at.line.closest.error + s * at.line.direction);
+    Real3 place;
     if (IS_CLOSE_UP) {
-        precise Real3 from_anchor = at.line.closest.value + (at.line.closest.error + s * at.line.direction);
-        normal = unit(sphere.slope + from_anchor / sphere.radius);
-        precise Real3 on_surface = from_anchor + depth_in_close_up(sphere, Sum3(from_anchor, Real3(0.0))) * normal;
-        precise Real3 seen = sphere.center + on_surface;
-        point = seen;
-        return;
+        normal = normal_of(sphere.curve, sphere.radius, from_anchor);
+        Real below = depth(sphere.curve, sphere.radius, Sum3(from_anchor, Real3(0.0)));
+        precise Real3 on_curve = from_anchor + below * normal;
+        place = on_curve;
+    } else {
+        normal = unit(from_anchor);
+        precise Real3 on_radius = sphere.radius * normal;
+        place = on_radius;
     }
-    precise Real3 from_center = at.line.closest.value + (at.line.closest.error + s * at.line.direction);
-    normal = unit(from_center);
-    precise Real3 on_sphere = sphere.center + sphere.radius * normal;
+    precise Real3 on_sphere = sphere.anchor + place;
     point = on_sphere;
 }
