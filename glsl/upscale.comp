@@ -30,8 +30,8 @@ void main() {
     bool is_there = all(lessThan(tile_pixel, uvec2(imageSize(picture)))) && all(lessThan(pixel, frame.size));
     if (!is_there) return;
 
-    // Where the pixel's centre lies among the centres of the traced ones, times twice the size: whole numbers below 2^30,
-    // so that a pixel has the same neighbours in every tile and on every device, and its share is one quotient.
+    // Where the pixel's centre lies among the centres of the traced ones, times twice the size: whole numbers below
+    // 2^30, so that a pixel has the same neighbours in every tile and on every device, and its share is one quotient.
     ivec2 unit = ivec2(2u * frame.size);
     ivec2 last = ivec2(frame.traced_size) - 1;
     ivec2 place = ivec2((2u * pixel + 1u) * frame.traced_size) - ivec2(frame.size);

@@ -64,8 +64,8 @@ uint first_box_row(uint kind) {
     return frame.proxies[kind] + proxy_rows * padded(frame.counts[kind]);
 }
 
-// One level are up to sixteen boxes, two groups, and every search enters them all. Where there is no second, its place is
-// taken by the first, of which then nothing counts.
+// One level are up to sixteen boxes, two groups, and every search enters them all. Where there is no second, its place
+// is taken by the first, of which then nothing counts.
 uint second_group(uint count) { return eighths(count) > 8u ? 16u : 0u; }
 
 // Of a kind that is the only one, they are read once.

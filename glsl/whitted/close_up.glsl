@@ -1,15 +1,16 @@
 // Round surfaces of a close-up: of a sphere, and of a cylinder across its axis. Rust has the same in
 // src/plan/rounding/sides.rs.
 
-// offset + slope . x + |x|^2 / (2 * radius): about the height of x, seen from the anchor, over the surface, where that is
-// small.
+// offset + slope . x + |x|^2 / (2 * radius): about the height of x, seen from the anchor, over the surface, where that
+// is small.
 Real height(Curve curve, Real radius, Sum3 x) {
     precise Real bend = dot(x.value, x.value) / (2.0 * radius);
     precise Real height = exact_dot(curve.slope, curve.slope_error, x) + (curve.offset + bend);
     return height;
 }
 
-// Distance from a point inside to the surface; negative outside. |slope * radius + x| is the radius where the height is 0.
+// Distance from a point inside to the surface; negative outside. |slope * radius + x| is the radius where the height is
+// 0.
 Real depth(Curve curve, Real radius, Sum3 x) {
     Real3 from_center = radius * curve.slope + x.value;
     return -2.0 * radius * height(curve, radius, x) / (radius + sqrt(dot(from_center, from_center)));

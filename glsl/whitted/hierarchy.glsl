@@ -1,19 +1,20 @@
-// The search through the solids of a kind, included once for each: SEARCH is its name, KEY_OF and TIGHTEN what looks at a
-// proxy of PROXY_ROWS rows, KIND the kind and LEVELS the number of levels over the solids. Where IS_DEAR, KEY_OF takes
-// so long that a packet first tries BOUNDING_SPHERE_OF, a bounding sphere around the solid.
+// The search through the solids of a kind, included once for each: SEARCH is its name, KEY_OF and TIGHTEN what looks at
+// a proxy of PROXY_ROWS rows, KIND the kind and LEVELS the number of levels over the solids. Where IS_DEAR, KEY_OF
+// takes so long that a packet first tries BOUNDING_SPHERE_OF, a bounding sphere around the solid.
 //
 // The solids lie in such an order that each eight that begin with a multiple of eight are near each other, and so are
-// each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what is
-// in it. src/tracer/hierarchy.rs makes the order, and the boxes.
+// each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what
+// is in it. src/tracer/hierarchy.rs makes the order, and the boxes.
 
 #if IS_DEAR && PACKETS
-#define SOLIDS_AHEAD(own, traversal, found) bounding_spheres_ahead(BOUNDING_SPHERE_OF(own.a, own.b), traversal, found.limit > HIDDEN)
+#define SOLIDS_AHEAD(own, traversal, found) \
+    bounding_spheres_ahead(BOUNDING_SPHERE_OF(own.a, own.b), traversal, found.limit > HIDDEN)
 #else
 #define SOLIDS_AHEAD(own, traversal, found) 0xFFu
 #endif
 
-// A group of the kind, and where the ray enters the box around it; `left`: which of its solids some ray may meet. A loop's
-// body may have come here for nothing, with none of them.
+// A group of the kind, and where the ray enters the box around it; `left`: which of its solids some ray may meet. A
+// loop's body may have come here for nothing, with none of them.
 void TRY_EIGHT(uint group, OwnOutline own, uint left, int entry, TraversalRay traversal, inout Found found) {
 #define A_OF_EIGHT(k) ROW_OF_EIGHT(own.a, proxies, own.first, PROXY_ROWS, k)
 #define B_OF_EIGHT(k) (PROXY_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own.b, proxies, own.first + 1u, PROXY_ROWS, k))
@@ -40,7 +41,8 @@ void TRY_EIGHT(uint group, OwnOutline own, uint left, int entry, TraversalRay tr
 }
 
 // Up to sixteen groups from `first` on, a bit each, and where the ray enters the boxes around them.
-void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries high, TraversalRay traversal, inout Found found) {
+void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries high, TraversalRay traversal,
+                inout Found found) {
     for (;;) {
         iterations++;
         uint place, solids;
@@ -71,9 +73,9 @@ void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries 
     }
 }
 
-// A level that is alone is entered whole. Down several, a ray or a packet of eight goes group by group: `left` keeps, from
-// bit 8 * (h - 2) on, which boxes of level h, in their order, are still to be gone into. Those of level 1 are gone into at
-// once. What a level holds backwards has its bit in `backwards`.
+// A level that is alone is entered whole. Down several, a ray or a packet of eight goes group by group: `left` keeps,
+// from bit 8 * (h - 2) on, which boxes of level h, in their order, are still to be gone into. Those of level 1 are gone
+// into at once. What a level holds backwards has its bit in `backwards`.
 void SEARCH(TraversalRay traversal, vec3 heading, bool is_searching, inout Found found) {
     uint count = frame.counts[KIND];
     if (!is_searching) found.limit = HIDDEN;

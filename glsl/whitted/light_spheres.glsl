@@ -1,8 +1,8 @@
 // Light spheres, which primary rays see.
 
 // Whether the ray may meet the light sphere: in float, on the safe side. Lights may lie beyond frame.reach, so that the
-// rounding of their centres goes by the distance too: u of it, and u more for that of a double's direction, besides the 16u
-// of DISTANCE_ERROR.
+// rounding of their centres goes by the distance too: u of it, and u more for that of a double's direction, besides the
+// 16u of DISTANCE_ERROR.
 bool may_meet_light_sphere(Ray ray, Light light) {
     vec3 to_center = vec3(light.position) - vec3(ray.origin), direction = vec3(ray.direction);
     float ahead = dot(to_center, direction);

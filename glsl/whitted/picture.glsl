@@ -1,7 +1,7 @@
 // Where pixels go.
 
-// One tile, row by row, linear RGB; alpha: samples that came to their end. A buffer and no image: a CPU driver takes three
-// times as long to store into an image, invocation by invocation, which would be a sixth of a frame.
+// One tile, row by row, linear RGB; alpha: samples that came to their end. A buffer and no image: a CPU driver takes
+// three times as long to store into an image, invocation by invocation, which would be a sixth of a frame.
 layout(binding = 0, std430) buffer Picture { vec4 picture[]; };
 
 vec4 mean_before(uint place) { return picture[place]; }

@@ -1,8 +1,8 @@
 // The proxies of solids: where a ray may meet one at the earliest, and whether it does for sure. In float, on the safe
 // side; src/tracer/proxies.rs writes them. A proxy of nothing is never met.
 
-// The half chord of a cylinder or a cone, squared, is off by this much of what it comes from: 2u for the difference, 3u for
-// each dot product and 4u for the direction's length, each at most once, and as much again for the sum.
+// The half chord of a cylinder or a cone, squared, is off by this much of what it comes from: 2u for the difference, 3u
+// for each dot product and 4u for the direction's length, each at most once, and as much again for the sum.
 const float CHORD_ERROR = 32.0 * FLOAT_ROUNDOFF;
 #if REAL_BITS == 64
 // And by the rounding of middle and ray to float, at distances of up to 4 * frame.reach.
@@ -12,9 +12,9 @@ float chord_rounding() { return 64.0 * FLOAT_ROUNDOFF * frame.reach * frame.reac
 float chord_rounding() { return 0.0; }
 #endif
 
-// How near the line comes to a centre is off by so much of the distance D to that: u for the difference from the origin,
-// 11u for how far ahead the closest point is (3u for the dot product, 8u for the direction's length), 2u for the way there
-// and 2u for the squares. D is no more than that way and the radius; a proxy has the radius's part in it.
+// How near the line comes to a centre is off by so much of the distance D to that: u for the difference from the
+// origin, 11u for how far ahead the closest point is (3u for the dot product, 8u for the direction's length), 2u for
+// the way there and 2u for the squares. D is no more than that way and the radius; a proxy has the radius's part in it.
 const float DISTANCE_ERROR = 16.0 * FLOAT_ROUNDOFF;
 
 // Of a line in a sphere that is larger than the true one, by `error`, at most.
@@ -49,13 +49,14 @@ uint key_of_sphere(vec4 a, vec4 b, TraversalRay traversal, int entry, uint k) {
 void tighten_by_sphere(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout Found found) {
     Chord chord = chord_of(a, traversal);
     float half_chord = sqrt(max(chord.half_squared, 0.0));
-    // Then the true half chord, squared, is no less than 0.77^2 of this one: radius and distance differ by five errors at
-    // least, and truly by two less.
+    // Then the true half chord, squared, is no less than 0.77^2 of this one: radius and distance differ by five errors
+    // at least, and truly by two less.
     bool is_deep = chord.half_squared >= 10.0 * chord.error * chord.radius;
     // The sine of the ray to the surface is half chord by radius; the origin is outside by t times that, or more.
     float rise = 0.77 * half_chord;
     bool is_ahead = (chord.ahead - half_chord) * rise > (HIDING_ERROR * 4.0 * frame.reach) * chord.radius;
-    tighten(is_there && is_deep && is_ahead, chord.ahead - rise + 3.0 * place_error(), rise, chord.radius, traversal, found);
+    float latest = chord.ahead - rise + 3.0 * place_error();
+    tighten(is_there && is_deep && is_ahead, latest, rise, chord.radius, traversal, found);
 }
 
 // a: centre; b: half sizes and, where the box is no more than its proxy, 1. Both rounded outwards by 2 place errors.
@@ -80,9 +81,10 @@ void tighten_by_box(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout
     tighten(is_there && is_deep, near + traversal.plane_error, sine, 1.0, traversal, found);
 }
 
-// A bounding sphere around the cylinder that encloses a solid: its centre, and the square of its radius, which is negative
-// where there is no solid. The radius is larger by what rounding may put a line off that: DISTANCE_ERROR of the distance,
-// at most 7 * frame.reach, are 7 place errors, proxies are wrong by up to 4, and the ray's place and direction by one.
+// A bounding sphere around the cylinder that encloses a solid: its centre, and the square of its radius, which is
+// negative where there is no solid. The radius is larger by what rounding may put a line off that: DISTANCE_ERROR of
+// the distance, at most 7 * frame.reach, are 7 place errors, proxies are wrong by up to 4, and the ray's place and
+// direction by one.
 vec4 sphere_around(vec3 center, float radius, float half_length, bool is_there) {
     float larger = 16.0 * place_error(), squared = radius * radius + half_length * half_length;
     // (r + larger)^2, of which r is no more than the sum of both; rounded a few times.

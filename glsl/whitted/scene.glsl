@@ -1,11 +1,12 @@
 // The scene as it lies in memory: rows of four reals, so that the layout is the same for float and double.
 // src/tracer/whitted_records.rs writes them.
 //
-// Scene space: the world frame with its origin among the solids, times a power of two that brings the farthest coordinate
-// of a solid, and of the camera, below 2. Within a kind the solids lie in the order of its hierarchy; the kinds lie behind
-// each other, and a primitive's place in that row is its slot.
+// Scene space: the world frame with its origin among the solids, times a power of two that brings the farthest
+// coordinate of a solid, and of the camera, below 2. Within a kind the solids lie in the order of its hierarchy; the
+// kinds lie behind each other, and a primitive's place in that row is its slot.
 
-// Solids are told from an anchor: their middle, and in a close-up their point nearest to the camera; cones from their apex.
+// Solids are told from an anchor: their middle, and in a close-up their point nearest to the camera; cones from their
+// apex.
 
 // A round surface about an anchor, in a close-up: offset + slope . x + |x|^2 / (2 * radius) = 0.
 struct Curve {
@@ -95,8 +96,8 @@ layout(constant_id = 10) const uint BOX_LEVELS = 0u;
 layout(constant_id = 11) const uint CYLINDER_LEVELS = 0u;
 layout(constant_id = 12) const uint CONE_LEVELS = 0u;
 // A close-up, of solids beside which the way to the camera is short: the frame's origin is the camera, and anchors are
-// the places of spheres, boxes and axes nearest to it, so that what rounding loses goes by how far off things are, and not
-// by the solid's size.
+// the places of spheres, boxes and axes nearest to it, so that what rounding loses goes by how far off things are, and
+// not by the solid's size.
 layout(constant_id = 20) const bool IS_CLOSE_UP = false;
 // What there is not, or the plan has left out.
 layout(constant_id = 13) const bool HAS_HIGHLIGHTS = true;
@@ -105,8 +106,8 @@ layout(constant_id = 15) const bool HAS_SHADOWS = true;
 layout(constant_id = 16) const bool HAS_REFLECTIONS = true;
 layout(constant_id = 17) const uint LIGHT_SPHERES = 2u; // of lights, that primary rays may see: as many
 
-// Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 iterations of all of them together: there
-// the search ends before that, and says so.
+// Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 iterations of all of them together:
+// there the search ends before that, and says so.
 layout(constant_id = 7) const uint MAX_ITERATIONS = 0xFFFFFFFFu;
 uint iterations = 0u;
 

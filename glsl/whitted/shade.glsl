@@ -23,15 +23,16 @@ Real3 towards(Light light, Real3 point, out Real light_distance) {
     return direction;
 }
 
-// Whether a light, at this height above the plane of a flat face, is not in it: then a rounded point of the face would see
-// it now from above and now from below.
+// Whether a light, at this height above the plane of a flat face, is not in it: then a rounded point of the face would
+// see it now from above and now from below.
 bool is_above(Light light, Hit hit, Real height) {
     Real place = max(largest_component(light.position), largest_component(hit.point));
     return height > SURFACE_ERROR * (place + hit.size);
 }
 
 // What of a light that nothing hides comes back along the ray, from a surface at this cosine to it.
-Real3 direct_radiance(Material material, Real3 normal, Real3 ray_direction, Real3 light_direction, Real cosine, Light light) {
+Real3 direct_radiance(Material material, Real3 normal, Real3 ray_direction, Real3 light_direction, Real cosine,
+                      Light light) {
     Real highlight = 0.0;
     if (HAS_HIGHLIGHTS) {
         Real3 mirrored_light = unit(mirrored(-light_direction, normal));

@@ -25,11 +25,11 @@ uint next_bounce(Real3 local_radiance, bool is_hit, Real specular, inout Path pa
     return HAS_REFLECTIONS && goes_further ? REFLECTED : ENDED;
 }
 
-// Rays of all generations, to the nearest hit and to lights, go the same way, so that neighbours in different stages do not
-// wait for each other, and one exact solve stands in the code. The search, which every ray needs, is the inner loop; what
-// only a ray with a candidate or a hit needs is gone through when some ray of the packet is there. A packet whose rays all
-// came to their end goes on to its next pixels in that loop too: at the end of each pixel the rest would be gone through
-// for nobody.
+// Rays of all generations, to the nearest hit and to lights, go the same way, so that neighbours in different stages do
+// not wait for each other, and one exact solve stands in the code. The search, which every ray needs, is the inner
+// loop; what only a ray with a candidate or a hit needs is gone through when some ray of the packet is there. A packet
+// whose rays all came to their end goes on to its next pixels in that loop too: at the end of each pixel the rest would
+// be gone through for nobody.
 void trace(View view) {
     uint begun = 0u; // of the invocation's pixels
     Path path = Path(Real3(0.0), 1.0, 0u);
@@ -104,7 +104,8 @@ void trace(View view) {
             // A ray that meets nothing more may end its generation at once.
             bool is_through = purpose != ENDED && !is_candidate;
             bool has_lights_left = LIGHTS > 1u && light_index < frame.light_count;
-            is_unshaded = is_through && (is_shadow_ray ? has_lights_left : is_hit || (LIGHT_SPHERES > 0u && may_see_light_sphere));
+            bool has_something = is_hit || (LIGHT_SPHERES > 0u && may_see_light_sphere);
+            is_unshaded = is_through && (is_shadow_ray ? has_lights_left : has_something);
             if (is_through && is_shadow_ray && !is_hidden) local_radiance = limited(local_radiance + direct);
             if (is_through && !is_shadow_ray && !is_hit) local_radiance = view.background;
             if (is_through && !is_unshaded) purpose = next_bounce(local_radiance, is_hit, hit_material.specular, path);
@@ -114,8 +115,8 @@ void trace(View view) {
             there_is = bits_of_packet(there_is);
             is_packet_at_rest = there_is == 0u;
             bool goes_on = there_is == RAY || (is_packet_at_rest && begun < PIXELS);
-            // Rays that go each for itself take a turn of all: left by one after another, this loop is what Mesa 22.3 draws
-            // scenes with several lights wrong from.
+            // Rays that go each for itself take one iteration of all: left by one after another, this loop is what Mesa
+            // 22.3 draws scenes with several lights wrong from.
             if (!IN_PACKETS || !goes_on || iterations >= MAX_ITERATIONS) break;
         }
 
@@ -145,7 +146,8 @@ void trace(View view) {
             is_hit = true;
             limit = up_to(hit.t);
         }
-        bool is_hidden = HAS_SHADOWS && is_shadow_ray && is_met && is_before(hit, ray, current_light.position, light_distance);
+        bool is_hidden =
+            HAS_SHADOWS && is_shadow_ray && is_met && is_before(hit, ray, current_light.position, light_distance);
         // Whether another candidate may come before what is known.
         uint last_key = uint(floatBitsToInt(limit)) | 7u;
         bool goes_on = is_candidate && !is_hidden && (is_own_due || found.next_key <= last_key);
@@ -179,7 +181,8 @@ void trace(View view) {
                 // A light at the hit point gives nothing.
                 bool shines = is_seeking && distance_to_next > 0.0 && cosine > 0.0 &&
                               (nearest.face == CURVED || is_above(next, nearest, cosine * distance_to_next));
-                Real3 direct_of_next = direct_radiance(hit_material, nearest.normal, ray_direction, direction_to_next, cosine, next);
+                Real3 direct_of_next =
+                    direct_radiance(hit_material, nearest.normal, ray_direction, direction_to_next, cosine, next);
                 // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
                 bool is_faint = path.weight * largest_component(direct_of_next) <= Real(frame.min_shadowed);
                 if (HAS_SHADOWS && shines && !is_faint) {

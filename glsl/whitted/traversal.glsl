@@ -1,18 +1,19 @@
-// The cheap search before the exact solve: bounds in float, whatever the kernel's precision, which are on the safe side.
+// The cheap search before the exact solve: bounds in float, whatever the kernel's precision, which are on the safe
+// side.
 //
-// No coordinate of a solid or a ray's origin is larger than 2 * frame.reach: an error bound that is right there is right
-// everywhere.
+// No coordinate of a solid or a ray's origin is larger than 2 * frame.reach: an error bound that is right there is
+// right everywhere.
 //
-// Numbers from 0 on are in the order of their bits, which the search compares: a CPU driver takes one instruction for the
-// least of two integers, and three for that of two floats, because of NaN. What is negative, or not a number because of
-// something negative, is recognised by its sign bit.
+// Numbers from 0 on are in the order of their bits, which the search compares: a CPU driver takes one instruction for
+// the least of two integers, and three for that of two floats, because of NaN. What is negative, or not a number
+// because of something negative, is recognised by its sign bit.
 
 const float FAR = 3.4028234663852886e38;
 const float FLOAT_ROUNDOFF = 5.9604644775390625e-8;
 
 // What a computed position may be off: differences and products of numbers up to 4 * frame.reach, rounded a few times,
-// and the rounding to float of the camera, of a unit of FLOAT_ROUNDOFF * frame.reach, and for the double kernel of all rays
-// and proxies.
+// and the rounding to float of the camera, of a unit of FLOAT_ROUNDOFF * frame.reach, and for the double kernel of all
+// rays and proxies.
 float place_error() { return 16.0 * FLOAT_ROUNDOFF * frame.reach; }
 
 struct TraversalRay {
@@ -51,7 +52,8 @@ TraversalRay traversal_ray_of(Ray ray) {
     TraversalRay traversal;
     traversal.origin = vec3(ray.origin);
     traversal.direction = vec3(ray.direction);
-    // A direction changed by 1e-12 misses its place by less than a place error, and 1/0 with all that comes of it is not.
+    // A direction changed by 1e-12 misses its place by less than a place error, and 1/0 with all that comes of it is
+    // not.
     vec3 slope = mix(traversal.direction, vec3(LEAST_SLOPE), lessThan(abs(traversal.direction), vec3(LEAST_SLOPE)));
     traversal.inverse = 1.0 / slope;
     vec3 steepness = abs(traversal.inverse);
@@ -66,8 +68,8 @@ TraversalRay traversal_ray_of(Ray ray) {
 // All bits where a number is negative.
 int if_negative(float number) { return floatBitsToInt(number) >> 31; }
 
-// A candidate of place `k` in its group that may be met from `t` on, and from its box's entry, unless `never` has a bit.
-// A box that is entered behind a candidate so has none in it that comes before that one.
+// A candidate of place `k` in its group that may be met from `t` on, and from its box's entry, unless `never` has a
+// bit. A box that is entered behind a candidate so has none in it that comes before that one.
 uint key_of(float t, int never, int entry, uint k) {
     return (uint(max(floatBitsToInt(t), entry)) & ~7u | k) | uint(never);
 }

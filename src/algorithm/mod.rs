@@ -1,7 +1,7 @@
 //! The algorithms: what each is called, where it runs, what it can calculate in and what it can leave out.
 //!
-//! The command line, the window, measurements, validation and reports read [`ALGORITHMS`]; a new algorithm is a row there,
-//! its GLSL in a folder of its own, and what a driver needs to record it (see docs/adding-an-algorithm.md).
+//! The command line, the window, measurements, validation and reports read [`ALGORITHMS`]; a new algorithm is a row
+//! there, its GLSL in a folder of its own, and what a driver needs to record it (see docs/adding-an-algorithm.md).
 
 mod precision;
 
@@ -43,7 +43,7 @@ pub struct Description {
     pub precisions: &'static [Precision],
     /// What a Vulkan device runs, one for each precision; none where the CPU does the work.
     pub kernels: &'static [Kernel],
-    /// How many lights a scene of its must have, where it is not free in that.
+    /// How many lights a scene must have, where that is not free.
     pub lights: Option<usize>,
     /// Whether it can leave out what changes a picture by less than an allowed error.
     pub approximates: bool,
@@ -126,7 +126,7 @@ impl Description {
 
 impl Algorithm {
     pub fn description(self) -> &'static Description {
-        // The rows are in the order of the names: `every_algorithm_has_its_row`.
+        // invariant: the rows are in the order of the names (`every_algorithm_has_its_row`).
         &ALGORITHMS[self as usize]
     }
 

@@ -22,7 +22,7 @@ impl Precision {
         }
     }
 
-    /// Of a solid, in kernel lengths: the rounding errors of its squares are still normal numbers.
+    /// Of a solid, in scene space: the rounding errors of its squares are still normal numbers.
     pub(crate) fn smallest_length(self) -> f64 {
         match self {
             Self::F32 => 2f64.powi(-50),
@@ -38,8 +38,8 @@ impl Precision {
         }
     }
 
-    /// The release tolerance of docs/numerics.md: how far rounding may take a linear channel off discontinuities, in a picture
-    /// whose light is about 1. It is tested over catalogues of scenes, not proven.
+    /// The release tolerance of docs/numerics.md: how far rounding may take a linear channel off discontinuities, in a
+    /// picture whose light is about 1. It is tested over catalogues of scenes, not proven.
     pub fn rounding_tolerance(self) -> f64 {
         match self {
             Self::F32 => 1.0 / 510.0,

@@ -21,8 +21,8 @@ use crate::viewer::{Display, PictureWindow, Shown};
 
 /// Measure frames a second by kind and number of solids, as in table 4.1 of the course work, beside its figures
 ///
-/// Kernels take turns within a cell, so that what else the machine does meets them alike; the first frame of each is left
-/// out. Ctrl-C keeps what is measured, where -o names a file for it.
+/// Kernels take turns within a cell, so that what else the machine does meets them alike; the first frame of each is
+/// left out. Ctrl-C keeps what is measured, where -o names a file for it.
 #[derive(Debug, Clone, Args)]
 pub struct FpsArgs {
     /// Measure each kernel so long in a cell, seconds [default: 3 s or 5 frames, whichever is first, but 2 frames and
@@ -41,8 +41,8 @@ pub struct FpsArgs {
     /// Pixels, each side 1 to 16384 [default: 1621x701]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<(u32, u32)>,
-    /// Where to write the table: a file (.json with every sample, .csv, .md; .png, .svg: its chart), or a folder for one
-    /// of each, called fps; may be repeated
+    /// Where to write the table: a file (.json with every sample, .csv, .md; .png, .svg: its chart), or a folder for
+    /// one of each, called fps; may be repeated
     #[arg(short, long, value_name = "DIR|FILE")]
     pub output: Vec<PathBuf>,
     /// Go on with a table that was interrupted, on the same device and as it was begun

@@ -175,8 +175,8 @@ fn nearest_ready(name: &str) -> Option<String> {
     (likeness(&nearest) >= LIKE).then_some(nearest)
 }
 
-/// Every file that `-o` asks for, of which it is known that it can be written; a name without an extension is a folder's
-/// for one of each form, called `stem`.
+/// Every file that `-o` asks for, of which it is known that it can be written; a name without an extension is a
+/// folder's for one of each form, called `stem`.
 fn report_files(paths: &[PathBuf], stem: &str) -> anyhow::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
     for path in paths {
@@ -250,8 +250,8 @@ fn print_json(value: &impl Serialize) -> anyhow::Result<()> {
 /// Exit code of a program ended by SIGPIPE, as shells report it.
 pub const READER_GONE: u8 = 141;
 
-/// 2 where the input is at fault, 130 after Ctrl-C, [`READER_GONE`] where nobody reads standard output any more, of which
-/// nothing is to be said; else 1.
+/// 2 where the input is at fault, 130 after Ctrl-C, [`READER_GONE`] where nobody reads standard output any more, of
+/// which nothing is to be said; else 1.
 pub fn exit_code(error: &anyhow::Error) -> u8 {
     // Only standard output is a pipe: files are written beside their names first.
     let is_reader_gone = error

@@ -161,7 +161,8 @@ fn setting(args: &RenderArgs) -> Result<Option<RenderSettings>> {
 }
 
 fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Result<Rendered> {
-    // From before the driver's threads compile anything until they are gone: a program that ends in their midst may crash.
+    // From before the driver's threads compile anything until they are gone: a program that ends in their midst may
+    // crash.
     let listener = Listener::start();
     let device = Device::open(args.device.device.as_deref(), args.validation.validation())?;
     let DeviceDescription { name, driver, .. } = device.description().clone();

@@ -29,7 +29,8 @@ pub struct ReportArgs {
     /// The folder for the page, which is called report.html
     #[arg(short, long, value_name = "DIR")]
     pub output: PathBuf,
-    /// Fewer scenes and smaller pictures: minutes on a CPU device. Without it, the whole gallery and table 4.1 as they are
+    /// Fewer scenes and smaller pictures: minutes on a CPU device. Without it, the whole gallery and table 4.1 as they
+    /// are
     #[arg(long)]
     pub quick: bool,
     #[command(flatten)]
@@ -55,7 +56,8 @@ pub fn run(args: &ReportArgs) -> Result<()> {
     fs::create_dir_all(&args.output).with_context(|| format!("could not create folder {:?}", args.output))?;
     let path = args.output.join("report.html");
     check_writable(&path)?;
-    // From before the driver's threads compile anything until they are gone: a program that ends in their midst may crash.
+    // From before the driver's threads compile anything until they are gone: a program that ends in their midst may
+    // crash.
     let watch = Watch::start();
     let device = Device::open(args.device.device.as_deref(), Validation::Off)?;
     let parts = Parts::new(args.quick, &args.device)?;

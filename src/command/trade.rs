@@ -35,8 +35,8 @@ pub enum Target {
 
 /// Measure the price of accuracy: the time and the error of every setting on scenes, and which one is meant
 ///
-/// Errors are the largest of a linear channel against the reference on the CPU; times are of frames that take turns with
-/// the accurate kernel's. Ctrl-C keeps what is measured.
+/// Errors are the largest of a linear channel against the reference on the CPU; times are of frames that take turns
+/// with the accurate kernel's. Ctrl-C keeps what is measured.
 #[derive(Debug, Clone, Args)]
 pub struct TradeArgs {
     /// Scene files or names of `zerkalo gallery`
@@ -61,15 +61,15 @@ pub struct TradeArgs {
     #[arg(long, alias = "kernel", value_name = "ALGORITHM,ALGORITHM", value_delimiter = ',',
           value_parser = parse_algorithm(Description::is_on_device))]
     pub algorithm: Vec<Algorithm>,
-    /// Measure each setting so long, seconds [default: 1 s or 9 pairs of frames, whichever is first, but 2 pairs and 0.25 s
-    /// at least]
+    /// Measure each setting so long, seconds [default: 1 s or 9 pairs of frames, whichever is first, but 2 pairs and
+    /// 0.25 s at least]
     #[arg(long, value_name = "S", value_parser = parse_seconds)]
     pub seconds: Option<Duration>,
     /// Pixels, each side 1 to 16384
     #[arg(long, value_name = "WxH", default_value = "405x175", value_parser = parse_size)]
     pub size: (u32, u32),
-    /// Where to write what was measured: a file (.json with every sample, .csv, .md; .png, .svg: its chart), or a folder
-    /// for one of each, called trade; may be repeated
+    /// Where to write what was measured: a file (.json with every sample, .csv, .md; .png, .svg: its chart), or a
+    /// folder for one of each, called trade; may be repeated
     #[arg(short, long, value_name = "DIR|FILE")]
     pub output: Vec<PathBuf>,
     #[command(flatten)]
@@ -101,7 +101,8 @@ pub fn run(args: &TradeArgs) -> Result<()> {
     let outputs = report_files(&args.output, "trade")?;
     args.save_settings.iter().try_for_each(|path| RenderSettings::check_output_path(path))?;
 
-    // From before the driver's threads compile anything until they are gone: a program that ends in their midst may crash.
+    // From before the driver's threads compile anything until they are gone: a program that ends in their midst may
+    // crash.
     let listener = Listener::start();
     let device = Device::open(args.measuring.device.device.as_deref(), args.measuring.validation.validation())?;
     let messages = device.messages().clone();

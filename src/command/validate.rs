@@ -17,10 +17,10 @@ use crate::viewer::{Display, PictureWindow};
 
 /// Draw the gallery by every kernel, precision and variant of a plan under Vulkan's validation layer
 ///
-/// Under core and synchronization checks, then once more under GPU-assisted ones (every variant of a kernel once, as the
-/// layer's own code makes them compile long), then under best-practices ones. Which of them the layer at hand does is
-/// found out by a mistake of each kind made on purpose. Exits with 1 if there is any message, or a check that was asked for
-/// is not done; Ctrl-C tells what was found so far.
+/// Under core and synchronization checks, then once more under GPU-assisted ones (every variant of a kernel once, as
+/// the layer's own code makes them compile long), then under best-practices ones. Which of them the layer at hand does
+/// is found out by a mistake of each kind made on purpose. Exits with 1 if there is any message, or a check that was
+/// asked for is not done; Ctrl-C tells what was found so far.
 #[derive(Debug, Clone, Args)]
 pub struct ValidateArgs {
     /// For every kernel only as many scenes as turn on and off all that a plan can

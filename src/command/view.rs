@@ -37,8 +37,8 @@ pub struct ViewArgs {
     /// shown, and where the widgets are
     #[arg(long)]
     pub observe: bool,
-    /// Compile the kernels, whichever is shown, anew whenever their sources, this program's own or those in DIR, change; in
-    /// debug builds only
+    /// Compile the kernels, whichever is shown, anew whenever their sources, this program's own or those in DIR,
+    /// change; in debug builds only
     #[arg(long, value_name = "DIR", num_args = 0..=1, default_missing_value = concat!(env!("CARGO_MANIFEST_DIR"), "/glsl"))]
     pub watch: Option<PathBuf>,
     /// Act as if the device was lost after so many frames

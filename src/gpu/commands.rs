@@ -155,9 +155,8 @@ impl Commands {
         // SAFETY: the fence was given to a submission.
         let mut waited = unsafe { self.device.raw.wait_for_fences(&[self.fence], true, u64::MAX) };
         if waited.is_ok() && self.device.is_gpu_assisted() {
-            // Layer 1.4.309 reads what kernels did in a thread of its own, which the fence does not wait for, and forgets
-            // it with the command buffer.
-            // SAFETY: the device is alive; no other thread uses the queue.
+            // Layer 1.4.309 reads what kernels did in a thread of its own, which the fence does not wait for, and
+            // forgets it with the command buffer. SAFETY: the device is alive; no other thread uses the queue.
             waited = self.device.with_queue(|queue| unsafe { self.device.raw.queue_wait_idle(queue) });
         }
         if waited.is_err() {

@@ -54,8 +54,8 @@ impl Validation {
     }
 }
 
-/// A check by its number in `VK_EXT_validation_features` and its name in `VK_EXT_layer_settings`: of the lists `enables`
-/// and `disables`, which every layer since 1.3.268 knows, while the names of single settings have changed.
+/// A check by its number in `VK_EXT_validation_features` and its name in `VK_EXT_layer_settings`: of the lists
+/// `enables` and `disables`, which every layer since 1.3.268 knows, while the names of single settings have changed.
 #[derive(Clone, Copy)]
 struct Switch {
     feature: i32,

@@ -115,7 +115,8 @@ impl Features {
         Self { of_1_0, ..Self::default() }
     }
 
-    /// Those, and what the layer's code in instrumented kernels uses: it would force them on by itself, and warn of that.
+    /// Those, and what the layer's code in instrumented kernels uses: it would force them on by itself, and warn of
+    /// that.
     pub fn of_instrumented_kernels(&self) -> Self {
         let mut features = self.of_kernels();
         let (of_1_0, of_1_2) = (&mut features.of_1_0, &mut features.of_1_2);

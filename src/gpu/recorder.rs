@@ -137,8 +137,8 @@ impl<'h> Recorder<'h> {
         self.dispatch_parts(set, push_constants, &[Dispatch { pipeline, first: [0; 3], groups }]);
     }
 
-    /// Runs parts of one grid of workgroups, each by its own of some sibling pipelines. No barrier stands between them, so
-    /// they must not touch the same data.
+    /// Runs parts of one grid of workgroups, each by its own of some sibling pipelines. No barrier stands between them,
+    /// so they must not touch the same data.
     ///
     /// # Panics
     /// The set was made for a pipeline that is no sibling, or the push constants are not as long as theirs.
@@ -179,8 +179,8 @@ impl<'h> Recorder<'h> {
         }
     }
 
-    /// Copies `width`×`height` pixels to the buffer, rows one after another: the top left ones of an image, or the first
-    /// of a buffer.
+    /// Copies `width`×`height` pixels to the buffer, rows one after another: the top left ones of an image, or the
+    /// first of a buffer.
     ///
     /// # Panics
     /// One of them has no room for that.
@@ -217,8 +217,8 @@ impl<'h> Recorder<'h> {
         self.copy_parts_to_image(from, to, width, [([0, 0], [width, height])]);
     }
 
-    /// Copies parts of a picture, each its first pixel and its size, from the buffer, which holds the picture in rows of
-    /// `width` pixels, to their places in the image. No barrier stands between them, so they must not overlap.
+    /// Copies parts of a picture, each its first pixel and its size, from the buffer, which holds the picture in rows
+    /// of `width` pixels, to their places in the image. No barrier stands between them, so they must not overlap.
     ///
     /// # Panics
     /// One of the two has no room for a part.

@@ -64,7 +64,8 @@ impl Difference {
     }
 }
 
-/// The release tolerances of docs/numerics.md: largest difference of a channel off discontinuities, and the share of discontinuity
+/// The release tolerances of docs/numerics.md: largest difference of a channel off discontinuities, and the share of
+/// discontinuity
 /// pixels that may differ by more than that.
 pub fn tolerances(precision: Precision) -> (f64, f64) {
     let share = match precision {

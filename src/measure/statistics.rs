@@ -7,8 +7,8 @@ use serde::Serialize;
 /// samples never reach beyond them.
 const FENCE_RANGES: f64 = 3.0;
 
-/// A sample this near to the median, in parts of it, is no outlier whatever the fences: a device whose samples differ by
-/// a tick of its clock would else warn of the tick.
+/// A sample this near to the median, in parts of it, is no outlier whatever the fences: a device whose samples differ
+/// by a tick of its clock would else warn of the tick.
 const UNREMARKABLE_SHARE: f64 = 0.01;
 
 /// The middle of the sorted samples; of two middles, their mean rounded down. `None` without samples.

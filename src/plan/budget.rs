@@ -1,4 +1,4 @@
-//! What an allowed error buys (docs/numerics.md, «Cutting generations with a guarantee»).
+//! What an allowed error buys (docs/light-model.md, «What an allowed error leaves out»).
 //!
 //! A pixel is Σ T·E over the generations of its ray, T being the product of the speculars met before. Three things may
 //! be left out of it, each for a part of the allowed error, and the parts add up: none of them turns a ray, so one cut
@@ -22,13 +22,13 @@ pub struct Approximations {
     /// A path ends as soon as its weight is not above that; below 1.
     #[serde(rename = "least_weight")]
     pub min_throughput: f32,
-    /// No shadow ray is traced for light of which no channel, times the path's weight, is above that; half of such light
-    /// counts, so that the error is at most half of it whether a solid is in the way or not.
+    /// No shadow ray is traced for light of which no channel, times the path's weight, is above that; half of such
+    /// light counts, so that the error is at most half of it whether a solid is in the way or not.
     #[serde(rename = "least_shadowed")]
     pub min_shadowed: f32,
     /// Whether there are highlights.
     pub highlights: bool,
-    /// Whether the camera may see the light sphere.
+    /// Whether the camera may see light spheres.
     #[serde(rename = "balls")]
     pub light_spheres: bool,
     /// Whether there is light that brightens anything.
@@ -188,7 +188,7 @@ pub(super) fn spend(
     }
 
     let for_generations = if traces_shadow_rays { GENERATIONS_SHARE * left } else { left };
-    if let Some(cut) = approximated_generations(transport, for_generations, depth, spent.approximations.highlights) {
+    if let Some(cut) = cut_generations(transport, for_generations, depth, spent.approximations.highlights) {
         // The kernel's weight may be smaller than the true one by the slack.
         let min_throughput = rounded_down(cut.weight / slack);
         if min_throughput > 0.0 {
@@ -236,7 +236,7 @@ struct GenerationCut {
 /// With k and K the least and the largest specular that reflects, a path's weight after m reflections is from kᵐ to Kᵐ.
 /// So where τ < kᵐ⁻¹ none is cut before it has been reflected m times: it weighs at most min(τ, Kᵐ) then, and has
 /// `depth` − m generations to go, of which the ceiling is known.
-fn approximated_generations(transport: &Transport, error: f64, depth: u32, highlights: bool) -> Option<GenerationCut> {
+fn cut_generations(transport: &Transport, error: f64, depth: u32, highlights: bool) -> Option<GenerationCut> {
     let (least, largest) = (transport.least_reflecting_specular(), transport.largest_specular());
     if least == 1.0 || largest == 0.0 {
         return None;
@@ -286,8 +286,8 @@ impl Shadows {
         Self { direct, largest_specular: transport.largest_specular(), generations }
     }
 
-    /// ½·Σ min(ε, Kᵍ·sent) over generations g and lights: half of each light's part, which is at most ε where the ray is
-    /// left out.
+    /// ½·Σ min(ε, Kᵍ·direct) over generations g and lights: half of each light's part, which is at most ε where the ray
+    /// is left out.
     fn bound(&self, min_shadowed: f64) -> f64 {
         let mut sum = DVec3::ZERO;
         let mut weight = 1.0;

@@ -21,8 +21,8 @@ pub(super) fn brightest_source(scene: &Scene) -> f64 {
 /// Vₙ for n = 0…`depth`: no ray of n generations is brighter, in linear RGB.
 ///
 /// V₀ = 0, and Vₙ = max(background, maxₘ(Eₘ + ksₘ·Vₙ₋₁)): a ray ends in the background, or meets a surface m and is
-/// reflected with n − 1 generations left. For one surface that is docs/numerics.md's E·(1 − kⁿ)/(1 − k), or n·E at k = 1;
-/// for several it is less than the largest E with the largest k.
+/// reflected with n − 1 generations left. For one surface that is E·(1 − kⁿ)/(1 − k), or n·E at k = 1; for
+/// several it is less than the largest E with the largest k.
 pub(super) fn ceilings(background: DVec3, surfaces: &[Surface], depth: u32) -> Vec<DVec3> {
     let mut ceilings = vec![DVec3::ZERO; depth as usize + 1];
     for channel in 0..3 {

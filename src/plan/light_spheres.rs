@@ -9,8 +9,8 @@ use super::solids::unit;
 use super::{Decision, Reason};
 use crate::scene::{Camera, Light, Projection, Scene, farthest_coordinate};
 
-/// What kernels may be off in a direction or a place, relative to distances between the camera, the light and the solids,
-/// among which their frame has its origin: of an `f32` of `u` = 6e-8, a hundredfold.
+/// What kernels may be off in a direction or a place, relative to distances between the camera, the light and the
+/// solids, among which their frame has its origin: of an `f32` of `u` = 6e-8, a hundredfold.
 const SURELY: f64 = 1e-5;
 
 /// How many may be seen.
@@ -19,7 +19,7 @@ pub(super) fn decide(scene: &Scene, [width, height]: [u32; 2]) -> Decision<usize
     let aspect = f64::from(width) / f64::from(height);
     // No distance is larger than its largest coordinate by more than the square root of three.
     let farthest = 2.0 * farthest_coordinate(&scene.primitives, scene.camera.position);
-    let seen = |light: &&Light| Area::of_ball(light, &scene.camera, aspect, farthest).is_some();
+    let seen = |light: &&Light| Area::of_light_sphere(light, &scene.camera, aspect, farthest).is_some();
     let choice = scene.lights.iter().filter(seen).count();
     let reason = match (lights, choice) {
         (0, _) => Reason::NoLights,
@@ -38,21 +38,23 @@ pub struct Area {
 }
 
 impl Area {
-    /// Outside of it no primary ray meets a light's ball; `None` where none does anywhere. `aspect`: width by height;
+    /// Outside of it no primary ray meets a light sphere; `None` where none does anywhere. `aspect`: width by height;
     /// `farthest`: no solid has a part that far from the camera.
     pub fn of_light_spheres(scene: &Scene, aspect: f64, farthest: f64) -> Option<Self> {
-        let areas = scene.lights.iter().filter_map(|light| Self::of_ball(light, &scene.camera, aspect, farthest));
+        let areas =
+            scene.lights.iter().filter_map(|light| Self::of_light_sphere(light, &scene.camera, aspect, farthest));
         areas.reduce(|a, b| Self { low: a.low.min(b.low), high: a.high.max(b.high) })
     }
 
-    fn of_ball(light: &Light, camera: &Camera, aspect: f64, farthest: f64) -> Option<Self> {
+    fn of_light_sphere(light: &Light, camera: &Camera, aspect: f64, farthest: f64) -> Option<Self> {
         let Camera { position, direction, up, vertical_fov_degrees, projection } = *camera;
         let ahead = unit(direction);
         let left = unit(unit(up).cross(ahead));
         let up = ahead.cross(left);
         let half_height = (vertical_fov_degrees.to_radians() / 2.0).tan();
         let half_width = half_height * aspect;
-        // Where the picture ends to the left and right, below and above, in half extents (docs/course-work.md, «Primary rays»).
+        // Where the picture ends to the left and right, below and above, in half extents (docs/course-work.md, «Primary
+        // rays»).
         let ([right_end, left_end], [low_end, high_end]) = match projection {
             Projection::Centered => ([-1.0, 1.0], [-1.0, 1.0]),
             Projection::Course => ([-1.0, 3.0], [-3.0, 1.0]),
@@ -80,7 +82,8 @@ impl Area {
         Some(Self { low: DVec2::new(left_edge, top), high: DVec2::new(right_edge, bottom) })
     }
 
-    /// Along x and y, of a picture of `size`, and one more to each side: pixels are taken at their centres, with rounding.
+    /// Along x and y, of a picture of `size`, and one more to each side: pixels are taken at their centres, with
+    /// rounding.
     pub fn pixels(self, size: [u32; 2]) -> [Range<u32>; 2] {
         let along = |axis: usize| {
             let count = f64::from(size[axis]);

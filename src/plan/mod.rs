@@ -99,7 +99,8 @@ pub enum Structure {
 }
 
 impl Structure {
-    /// Up to so many solids of a kind a ray looks at each of them, or at so many boxes of the topmost of several levels.
+    /// Up to so many solids of a kind a ray looks at each of them, or at so many boxes of the topmost of several
+    /// levels.
     pub const BREAK_EVEN: usize = 32;
 
     /// One level alone has at most so many boxes: two groups, which every search enters.
@@ -108,7 +109,8 @@ impl Structure {
     /// Solids in a box, and boxes in one of the level above.
     pub const GROUP: usize = 8;
 
-    /// What the kernel can go down: enough for [`PRIMITIVE_LIMIT`](crate::scene::PRIMITIVE_LIMIT) solids under 64 boxes.
+    /// What the kernel can go down: enough for [`PRIMITIVE_LIMIT`](crate::scene::PRIMITIVE_LIMIT) solids under 64
+    /// boxes.
     pub const MOST_LEVELS: u32 = 6;
 
     /// Over the solids of one kind.
@@ -274,9 +276,9 @@ impl Plan {
         !self.settings.boxes && self.counts.iter().any(|&count| Structure::over(count) != Structure::None)
     }
 
-    /// With [`Plan::rounding`] looked at where `f32` was asked for, too, which may take a second: for those who tell the
-    /// [warning](Plan::warning). To be called with the scene that the plan was made for. Of what is no accurate algorithm
-    /// nothing is told: it is there to show what rounding does.
+    /// With [`Plan::rounding`] looked at where `f32` was asked for, too, which may take a second: for those who tell
+    /// the [warning](Plan::warning). To be called with the scene that the plan was made for. Of what is no accurate
+    /// algorithm nothing is told: it is there to show what rounding does.
     pub fn with_f32_tried(mut self, scene: &Scene) -> Self {
         let is_accurate = self.settings.algorithm.description().is_accurate;
         if is_accurate && self.precision.choice == Precision::F32 && self.rounding.is_none() {

@@ -14,8 +14,8 @@ use crate::settings::RenderSettings;
 /// Silhouettes that move by less change only pixels that they run through.
 const LARGEST_SHIFT_PIXELS: f64 = 0.5;
 
-/// As asked for, else f32 unless that is known to be wrong, or an error is allowed that f32 may exceed by rounding alone;
-/// with what rounding to f32 does, where that was looked at.
+/// As asked for, else f32 unless that is known to be wrong, or an error is allowed that f32 may exceed by rounding
+/// alone; with what rounding to f32 does, where that was looked at.
 pub(super) fn choose(
     lengths: &Lengths,
     settings: &RenderSettings,
@@ -66,15 +66,16 @@ pub(super) fn try_f32(lengths: &Lengths, settings: &RenderSettings, size: [u32; 
     rounding_to_f32(lengths, settings, size, silhouette_shift_pixels(lengths, size))
 }
 
-/// No silhouette that the camera sees directly is drawn farther than that from where it is, in pixels, in `f32`. In mirrors there
-/// is no such bound: a round one multiplies an angle's error at every reflection.
+/// No silhouette that the camera sees directly is drawn farther than that from where it is, in pixels, in `f32`. In
+/// mirrors there is no such bound: a round one multiplies an angle's error at every reflection.
 ///
-/// A kernel errs between hit and miss where the clearance is below 8u·size (docs/numerics.md, H); the stored solid is off by
-/// u of its place, seen from the camera, and of its size; the ray's direction by less than 32u of the window's extent.
+/// A kernel errs between hit and miss where the clearance is below 8u·size (docs/numerics.md, H); the stored solid is
+/// off by u of its place, seen from the camera, and of its size; the ray's direction by less than 32u of the window's
+/// extent.
 ///
-/// In a close-up the size's part is taken by the way from the solid's anchor. That is the point nearest to the camera, so
-/// that from a silhouette at a distance D it is at most 2D, and the place of the anchor at most D; of a cone the anchor is
-/// the apex.
+/// In a close-up the size's part is taken by the way from the solid's anchor. That is the point nearest to the camera,
+/// so that from a silhouette at a distance D it is at most 2D, and the place of the anchor at most D; of a cone the
+/// anchor is the apex.
 fn silhouette_shift_pixels(lengths: &Lengths, size: [u32; 2]) -> f64 {
     let [width, height] = size.map(f64::from);
     let u = Precision::F32.unit_roundoff();

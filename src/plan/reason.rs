@@ -60,8 +60,8 @@ pub enum Reason {
         of: u32,
         bound: f64,
     },
-    /// `tolerance`: see [`Precision::rounding_tolerance`](super::Precision::rounding_tolerance), times the brightest source above 1;
-    /// `shift_pixels`: of silhouettes that the camera sees directly.
+    /// `tolerance`: see [`Precision::rounding_tolerance`](super::Precision::rounding_tolerance), times the brightest
+    /// source above 1; `shift_pixels`: of silhouettes that the camera sees directly.
     RoundingIsNoCut {
         tolerance: f64,
         shift_pixels: f64,

@@ -43,7 +43,8 @@ pub(super) fn unit(vector: DVec3) -> DVec3 {
     (vector / vector.abs().max_element()).normalize()
 }
 
-/// How far a point is from the nearest plane of a flat face, among those that it does not lie in to the rounding of `f64`.
+/// How far a point is from the nearest plane of a flat face, among those that it does not lie in to the rounding of
+/// `f64`.
 pub(super) fn from_face_planes(solid: &Solid, point: DVec3) -> f64 {
     let from_anchor = point - solid.position();
     let least = 8.0 * f64::EPSILON * (point.abs().max_element() + size(solid));

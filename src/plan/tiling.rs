@@ -13,9 +13,9 @@ pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decisi
     Decision { choice, reason }
 }
 
-/// Of so many solids, those that a ray of the accurate kernel tries: as a rule no more than one level of boxes can hold.
-/// Rays that go far among solids of all kinds, as in `cloud-10000`, take ten times that, and a tile there some 60 ms on two
-/// cores; those among a million spheres on a plane are as quick as among a hundred.
+/// Of so many solids, those that a ray of the accurate kernel tries: as a rule no more than one level of boxes can
+/// hold. Rays that go far among solids of all kinds, as in `cloud-10000`, take ten times that, and a tile there some 60
+/// ms on two cores; those among a million spheres on a plane are as quick as among a hundred.
 pub fn tried_under_boxes(solids: usize) -> usize {
     solids.min(Structure::MOST_ALONE * Structure::GROUP)
 }
@@ -29,7 +29,8 @@ pub fn tile_side(max: u32, tried: usize, lights: usize, max_depth: u32) -> u32 {
     const TESTS: u64 = 1 << 28;
     let tests_per_pixel = u64::from(max_depth) * (1 + lights as u64) * (tried as u64 + 1);
     let side = (TESTS / tests_per_pixel).isqrt() as u32;
-    // A multiple of what a workgroup traces, side by side and in turn, leaves no invocations idle at the tile's edge.
+    // A multiple of what a workgroup traces, side by side and one after another, leaves no invocations idle at the
+    // tile's edge.
     const TRACED: u32 = WORKGROUP[1] * MOST_PIXELS;
     max.min((side / TRACED * TRACED).max(TRACED))
 }

@@ -4,8 +4,8 @@ use super::solids::is_rotated;
 use super::{Decision, Limits, Reason, Structure};
 use crate::scene::{BoundingSphere, Primitive, Scene, SolidKind};
 
-/// Turns of all its loops together that an invocation may take on a CPU driver. Mesa's leave a loop after 65535 without a
-/// word; this is below by more than a last search among all kinds takes to end.
+/// Iterations of all its loops together that an invocation may take on a CPU driver. Mesa's leave a loop after 65535
+/// without a word; this is below by more than a last search among all kinds takes to end.
 pub const CPU_MAX_ITERATIONS: u32 = 60_000;
 
 /// Where invocations come in packets, a packet that goes on to its next pixels spares the end of each what comes after
@@ -19,7 +19,7 @@ const MOST_SOLIDS: usize = 512;
 /// passing.
 const TOUCHED: usize = 1;
 
-/// Turns that a search and an exact solve take by themselves.
+/// Iterations that a search and an exact solve take by themselves.
 const AROUND: u64 = 4;
 
 /// What a ray may have to do among some primitives.
@@ -27,34 +27,34 @@ const AROUND: u64 = 4;
 pub struct TraversalCost {
     /// Of one search and the solve after it, in half of the boxes, times how many of these at most; `None` among more
     /// primitives than are looked at.
-    turns: Option<u64>,
+    iterations: Option<u64>,
 }
 
 impl TraversalCost {
     /// Takes time by the square of their number, up to 512 of them.
     pub fn of(primitives: &[Primitive]) -> Self {
         if primitives.len() > MOST_SOLIDS {
-            return Self { turns: None };
+            return Self { iterations: None };
         }
         let count = |kind: SolidKind| primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count();
-        // A turn for each group of eight solids, or of eight boxes over them. That one of cylinders or cones may take two or
-        // three is not counted.
+        // An iteration for each group of eight solids, or of eight boxes over them. That one of cylinders or cones may
+        // take two or three is not counted.
         let groups = |solids: usize| solids.div_ceil(Structure::GROUP - 1).div_ceil(2) as u64;
         let search: u64 = SolidKind::ALL.into_iter().map(|kind| groups(count(kind))).sum();
         // A box that is rotated is tried by the axis-aligned box around it, which a ray may meet for nothing.
         let rotated_boxes = primitives.iter().filter(|primitive| is_rotated(&primitive.solid)).count();
         let solved = 1 + TOUCHED + most_in_one_place(primitives) + rotated_boxes;
-        Self { turns: Some((search + AROUND) * solved as u64) }
+        Self { iterations: Some((search + AROUND) * solved as u64) }
     }
 
-    /// How many pixels a packet's invocations trace in turn: eight, or the largest power of two so that the driver's loops
-    /// have time for all of them. An estimate: what it is wrong about, a tracer traces once more, pixel by pixel, and a
-    /// window shows black. `unknown`: of so many where the primitives have not been looked at.
+    /// How many pixels each of a packet's invocations traces: eight, or the largest power of two so that the driver's
+    /// loops have time for all of them. An estimate: what it is wrong about, a tracer traces once more, pixel by pixel,
+    /// and a window shows black. `unknown`: of so many where the primitives have not been looked at.
     pub fn pixels_per_invocation(self, lights: usize, generations: u32, unknown: u32) -> u32 {
-        let Some(turns) = self.turns else { return unknown };
+        let Some(iterations) = self.iterations else { return unknown };
         let rays = u64::from(generations) * (1 + lights as u64);
-        let turns = turns.saturating_mul(rays);
-        let fits = |pixels: u32| turns.saturating_mul(pixels.into()) <= CPU_MAX_ITERATIONS.into();
+        let iterations = iterations.saturating_mul(rays);
+        let fits = |pixels: u32| iterations.saturating_mul(pixels.into()) <= CPU_MAX_ITERATIONS.into();
         let mut pixels = MOST_PIXELS;
         while pixels > 1 && !fits(pixels) {
             pixels /= 2;
@@ -63,8 +63,8 @@ impl TraversalCost {
     }
 }
 
-/// No more solids than that have a point in common: a ray may have to solve all that it meets at its first hit. Proxies are
-/// larger than solids by some millionths; a thousandth is more than that by far, and counts hardly any more.
+/// No more solids than that have a point in common: a ray may have to solve all that it meets at its first hit. Proxies
+/// are larger than solids by some millionths; a thousandth is more than that by far, and counts hardly any more.
 fn most_in_one_place(primitives: &[Primitive]) -> usize {
     let spheres: Vec<_> = primitives.iter().map(|primitive| BoundingSphere::of(&primitive.solid)).collect();
     let touch =

@@ -29,7 +29,7 @@ use crate::scene::Scene;
 /// [`Pixel::first_hit`] of a primary ray that met nothing.
 pub const BACKGROUND: u32 = u32::MAX;
 
-/// [`Pixel::first_hit`] of a primary ray that saw a light's ball.
+/// [`Pixel::first_hit`] of a primary ray that saw a light sphere.
 pub const LIGHT_SPHERE: u32 = u32::MAX - 1;
 
 /// What one primary ray saw.

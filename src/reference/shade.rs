@@ -96,20 +96,21 @@ impl<'a> World<'a> {
         sum
     }
 
-    /// The light whose ball is nearer than any primitive, and seen from outside.
+    /// The light whose sphere is nearer than any primitive, and seen from outside.
     fn light_sphere_before(&self, ray: &Ray, hit: Option<&Hit>) -> Option<u32> {
-        let entry = |ball: &Option<Solids>| {
-            let entry = ball.as_ref()?.nearest(ray, OriginSurface::Free)?;
+        let entry = |sphere: &Option<Solids>| {
+            let entry = sphere.as_ref()?.nearest(ray, OriginSurface::Free)?;
             (entry.side == Side::Outside).then_some(entry.t)
         };
-        let light_spheres = (0u32..).zip(&self.light_spheres).filter_map(|(light, ball)| Some((light, entry(ball)?)));
+        let light_spheres =
+            (0u32..).zip(&self.light_spheres).filter_map(|(light, sphere)| Some((light, entry(sphere)?)));
         let (light, t) = light_spheres.min_by(|(_, a), (_, b)| a.total_cmp(b))?;
         hit.is_none_or(|hit| t < hit.t).then_some(light)
     }
 }
 
-/// From where places are counted, so that a rounded one is not off by more than solids are small: the world's origin, or the
-/// camera where solids are less than a millionth of its coordinates.
+/// From where places are counted, so that a rounded one is not off by more than solids are small: the world's origin,
+/// or the camera where solids are less than a millionth of its coordinates.
 fn origin(scene: &Scene) -> DVec3 {
     const FAR: f64 = 1e6;
     let sizes = scene.primitives.iter().map(|primitive| BoundingSphere::of(&primitive.solid).radius);

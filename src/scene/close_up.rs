@@ -1,11 +1,11 @@
 //! Solids as a close-up has them: told from an anchor, which is where they are nearest to the camera.
 //!
 //! A solid much larger than the way to the camera is told from its centre by numbers whose rounding alone is more than
-//! that way. From an anchor nearby, a sphere's surface is offset + slope·x + |x|²/(2·radius) = 0, whose terms are all as
-//! small as x; and so is a cylinder's, across its axis.
+//! that way. From an anchor nearby, a sphere's surface is offset + slope·x + |x|²/(2·radius) = 0, whose terms are all
+//! as small as x; and so is a cylinder's, across its axis.
 //!
-//! Scene space, the camera at its origin. Anchors are points in `f32`, so that rounding takes nothing from them; the rest
-//! is computed for them in `f64`.
+//! Scene space, the camera at its origin. Anchors are points in `f32`, so that rounding takes nothing from them; the
+//! rest is computed for them in `f64`.
 
 use glam::{DMat3, DVec3};
 

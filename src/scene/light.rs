@@ -1,12 +1,12 @@
 use glam::DVec3;
 
-/// A point light without attenuation, which primary rays see from outside as a ball.
+/// A point light without attenuation, which primary rays see from outside as a sphere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Light {
     pub position: DVec3,
     /// Linear RGB, not limited to 1.
     pub intensity: DVec3,
-    /// Of the ball, world units; 0: it is not seen. A camera inside does not see it either.
+    /// Of that sphere, world units; 0: it is not seen. A camera inside does not see it either.
     pub radius: f64,
 }
 

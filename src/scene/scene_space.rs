@@ -38,7 +38,7 @@ impl SceneSpace {
         Extent::of(&scene.primitives).frame(scene.camera.position)
     }
 
-    /// The frame of a close-up of a scene: then what rounding loses goes by how far things are from the camera.
+    /// The space of a close-up: what rounding loses goes by how far things are from the camera.
     pub fn close_up(scene: &Scene) -> Self {
         let origin = scene.camera.position;
         let extent = Extent { origin, farthest: farthest_coordinate(&scene.primitives, origin) };
@@ -49,11 +49,11 @@ impl SceneSpace {
         (world - self.origin) * self.scale
     }
 
-    /// Where a light is, and the radius of its ball, kernel lengths.
+    /// Where a light is, and the radius of its sphere; scene space.
     pub(crate) fn light(&self, light: &Light) -> (DVec3, f64) {
         let position = self.point(light.position);
         let nearer = (FARTHEST_LIGHT / position.abs().max_element()).min(1.0);
-        // The ball keeps the angle under which the camera sees it.
+        // The sphere keeps the angle under which the camera sees it.
         (position * nearer, light.radius * self.scale * nearer)
     }
 
@@ -75,14 +75,14 @@ pub(crate) struct Extent {
 /// Solids that the origin is chosen from: as good a choice as from a million, and sooner made.
 const SAMPLE: usize = 4096;
 
-/// Coordinates are rounded up where this would make a whole step of what is left: scenes are symmetric about halves and tenths, and
-/// a mean right where rounding turns would turn with every edit.
+/// Coordinates are rounded up where this would make a whole step of what is left: scenes are symmetric about halves and
+/// tenths, and a mean right where rounding turns would turn with every edit.
 const ROUND_UP: f64 = 0.618;
 
 impl Extent {
-    /// The origin is where solids are small and many, since that is where what rounding a coordinate loses would show: the
-    /// mean of the middles weighed by 1/size, without the outer quarters, to whole steps of a few sizes. One solid edited
-    /// among many hardly ever moves it, nor does a ground a million times as large as all that stands on it.
+    /// The origin is where solids are small and many, since that is where what rounding a coordinate loses would show:
+    /// the mean of the middles weighed by 1/size, without the outer quarters, to whole steps of a few sizes. One solid
+    /// edited among many hardly ever moves it, nor does a ground a million times as large as all that stands on it.
     pub fn of(primitives: &[Primitive]) -> Self {
         let stride = primitives.len().div_ceil(SAMPLE).max(1);
         let sample: Vec<_> =
@@ -103,9 +103,9 @@ impl Extent {
         Self { origin, farthest: farthest_coordinate(primitives, origin) }
     }
 
-    /// The farthest coordinate of a solid or of the camera is brought below 2 by a power of two: squares stay far from the
-    /// ends of `f32` whatever the scene's unit. The camera's distance counts only where it is the larger, and then by its
-    /// power of two.
+    /// The farthest coordinate of a solid or of the camera is brought below 2 by a power of two: squares stay far from
+    /// the ends of `f32` whatever the scene's unit. The camera's distance counts only where it is the larger, and then
+    /// by its power of two.
     pub fn frame(&self, camera: DVec3) -> SceneSpace {
         let farthest = self.farthest.max((camera - self.origin).abs().max_element());
         let scale = if farthest > 0.0 { 1.0 / power_of_two_below(farthest) } else { 1.0 };

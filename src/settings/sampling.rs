@@ -1,13 +1,13 @@
 //! How finely a picture is traced: samples a pixel, and its size against that of the picture shown.
 //!
-//! A pixel's colour is the mean of its samples in linear RGB, as they are: light above 1 counts in full, since the pixel
-//! stands for all the light that comes through it. Only the mean is cut off where it is
-//! [shown](crate::frame::display_value), so a pixel that shows nothing but a highlight looks the same with any number of
-//! samples, and EXR files stay linear.
+//! A pixel's colour is the mean of its samples in linear RGB, as they are: light above 1 counts in full, since the
+//! pixel stands for all the light that comes through it. Only the mean is cut off where it is
+//! [shown](crate::frame::display_value), so a pixel that shows nothing but a highlight looks the same with any number
+//! of samples, and EXR files stay linear.
 //!
 //! The mean is kept in `f32`, from sample to sample, mₖ = mₖ₋₁ + (cₖ − mₖ₋₁)·wₖ, wₖ the `f32` nearest to 1/k: three
-//! rounded operations, the same on every device. With all colours in [0, M] and u = 2⁻²⁴ each step adds at most
-//! (1 + 3/k)·u·M, of which the later steps leave k/n: after n samples the mean is off by at most ((n + 1)/2 + 3)·u·M, to
+//! rounded operations, the same on every device. With all colours in [0, M] and u = 2⁻²⁴ each step adds at most (1 +
+//! 3/k)·u·M, of which the later steps leave k/n: after n samples the mean is off by at most ((n + 1)/2 + 3)·u·M, to
 //! first order.
 
 /// Of a pixel, along each side: a sample's ray is that of a pixel of a picture that is so many times as wide and high.

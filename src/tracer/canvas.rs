@@ -18,7 +18,8 @@ use images::{Image, Upscaling, images};
 pub use timing::Finished;
 use timing::{Chunk, Timing};
 
-/// Pictures that take longer are seen while they come into being; shorter ones only whole, lest a moving one fall apart.
+/// Pictures that take longer are seen while they come into being; shorter ones only whole, lest a moving one fall
+/// apart.
 const LONG: Duration = Duration::from_millis(500);
 
 /// A kernel's picture of a changing scene, on submissions of an [`InFlight`].
@@ -117,8 +118,8 @@ impl Canvas {
         Ok(true)
     }
 
-    /// Another build of a shader of the program from the next chunk on; where the kernel is made from it, the picture is
-    /// to be [asked for](Canvas::show) again.
+    /// Another build of a shader of the program from the next chunk on; where the kernel is made from it, the picture
+    /// is to be [asked for](Canvas::show) again.
     ///
     /// # Errors
     /// The device does not take it; the last build goes on.
@@ -215,8 +216,8 @@ impl Canvas {
         self.timing.first_of_interest = self.begun + 1;
     }
 
-    /// What is traced, and what is left out, from the next picture [asked for](Canvas::show) on. Kernel, size and sampling
-    /// are the canvas's own.
+    /// What is traced, and what is left out, from the next picture [asked for](Canvas::show) on. Kernel, size and
+    /// sampling are the canvas's own.
     pub fn set_settings(&mut self, settings: Settings) {
         self.settings = settings;
     }
@@ -275,7 +276,8 @@ impl Canvas {
         is_under_way.then(|| done as f32 / (samples * self.sweep.total()) as f32)
     }
 
-    /// GPU times of the pictures that came to their end since the last call; nothing where the device has no timestamps.
+    /// GPU times of the pictures that came to their end since the last call; nothing where the device has no
+    /// timestamps.
     pub fn take_finished(&mut self) -> Vec<Finished> {
         self.timing.take_finished()
     }
@@ -319,7 +321,8 @@ impl Canvas {
         let timer = self.timing.timer(place);
         recorder.labelled("trace", |recorder| {
             timer.iter().for_each(|timer| recorder.start(timer));
-            // The barrier comes after the timer's start: with a framebuffer around, lavapipe takes a time only at the next.
+            // The barrier comes after the timer's start: with a framebuffer around, lavapipe takes a time only at the
+            // next.
             recorder.make_ready(self.pixels.as_ref().unwrap_or(&self.images[target].resource), Use::ShaderWrite);
             self.kernel.record(recorder, &set, scene, self.sample, &parts);
             if let Some(pixels) = &self.pixels {
@@ -379,7 +382,8 @@ impl Canvas {
         Ok(())
     }
 
-    /// Takes up the next sample of each pixel, which goes into the picture shown: that is one of the scene all the while.
+    /// Takes up the next sample of each pixel, which goes into the picture shown: that is one of the scene all the
+    /// while.
     fn begin_sample(&mut self) {
         self.sample += 1;
         self.begun += 1;

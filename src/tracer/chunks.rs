@@ -73,7 +73,8 @@ impl Pace {
     /// Whoever waits for the device has at most [`InFlight::COUNT`](crate::gpu::InFlight::COUNT) chunks before him: a
     /// panel that takes a CPU device another 20 ms to draw answers within the 100 ms that people take for at once.
     const CHUNK_NS: f64 = 20e6;
-    /// Before anything is known: little even at eight milliseconds each, more than the slowest kernel took on two cores.
+    /// Before anything is known: little even at eight milliseconds each, more than the slowest kernel took on two
+    /// cores.
     const FIRST_BLOCKS: u64 = 2;
     /// The next rows may be dearer than the last: the pace rises no faster than this, and falls at once.
     const LARGEST_RISE: u64 = 4;

@@ -12,8 +12,8 @@ use crate::plan::{MOST_PIXELS, Precision};
 use crate::scene::{DEPTH_LIMIT, Scene};
 use crate::settings::sampling::Sampling;
 
-/// What a picture is traced by, pixels along x and y: workgroups below each other, as many as an invocation has pixels at
-/// most.
+/// What a picture is traced by, pixels along x and y: workgroups below each other, as many as an invocation has pixels
+/// at most.
 pub(super) const BLOCK: [u32; 2] = [WORKGROUP[0], MOST_PIXELS * WORKGROUP[1]];
 
 pub(super) enum LiveKernel {
@@ -110,7 +110,8 @@ impl LiveKernel {
         }
     }
 
-    /// Traces these parts of the picture, in blocks: the sample with this index of each pixel, the ones before being there.
+    /// Traces these parts of the picture, in blocks: the sample with this index of each pixel, the ones before being
+    /// there.
     pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, state: &State, sample: u32, parts: &[Part]) {
         match (self, state) {
             (Self::Course(kernel), State::Course(scene)) => {

@@ -1,4 +1,5 @@
-//! The accurate kernel or the plain one with a scene that changes: what stays the same is neither made nor uploaded again.
+//! The accurate kernel or the plain one with a scene that changes: what stays the same is neither made nor uploaded
+//! again.
 
 use std::ops::Range;
 use std::sync::Arc;

@@ -58,8 +58,8 @@ pub enum TracerError {
     #[error("stopped")]
     Stopped,
     #[error(
-        "device '{device}' gave up on {pixels} pixels, as Mesa's CPU drivers do where a pixel takes more than 65535 turns \
-         of loops; fewer primitives or generations are needed there"
+        "device '{device}' gave up on {pixels} pixels, as Mesa's CPU drivers do where a pixel takes more than 65535 \
+         iterations of loops; fewer primitives or generations are needed there"
     )]
     LoopLimitReached { device: String, pixels: usize },
     #[error(transparent)]

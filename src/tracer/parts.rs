@@ -35,9 +35,9 @@ impl Part {
         (Some(between(low, high)), rest)
     }
 
-    /// Dispatches for a device that gives each of so many threads one run of the workgroups, x first and z last, as Mesa's
-    /// CPU drivers do. A run is then every n-th column, so that no thread is left with the part of a picture that takes
-    /// longest: of runs of whole rows, one has the sky.
+    /// Dispatches for a device that gives each of so many threads one run of the workgroups, x first and z last, as
+    /// Mesa's CPU drivers do. A run is then every n-th column, so that no thread is left with the part of a picture
+    /// that takes longest: of runs of whole rows, one has the sky.
     pub fn shares(self, threads: u32) -> Vec<Grid> {
         let ([column, row], [columns, rows]) = (self.first, self.groups);
         let mut shares = threads.max(1);

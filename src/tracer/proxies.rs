@@ -75,8 +75,8 @@ fn box_rows(bounds: Bounds, frame: SceneSpace, place_errors: f32, fourth: f32) -
 
 /// Two rows a box, in whole groups. `height`: of the level, from 1 on.
 ///
-/// As the kernel computes it, no box is entered before the one around it: either t is off by a place error at most, at a
-/// slope of 1, the rows by half of one, and each level is larger than what is in it by four.
+/// As the kernel computes it, no box is entered before the one around it: either t is off by a place error at most, at
+/// a slope of 1, the rows by half of one, and each level is larger than what is in it by four.
 pub fn level_rows(level: &Level, height: usize, frame: SceneSpace) -> Vec<Row> {
     let place_errors = (4 * height - 2) as f32;
     let boxes = level.boxes.par_iter().enumerate();

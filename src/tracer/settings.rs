@@ -13,7 +13,8 @@ pub struct Settings {
     pub height: u32,
     /// In place of the scene's.
     pub max_depth: Option<u32>,
-    /// Largest side of what one submission traces, pixels; heavy scenes take smaller tiles, see [`tile_side`](crate::plan::tile_side).
+    /// Largest side of what one submission traces, pixels; heavy scenes take smaller tiles, see
+    /// [`tile_side`](crate::plan::tile_side).
     pub max_tile_side: u32,
     /// Pixels of a workgroup along x and y.
     pub workgroup: [u32; 2],
@@ -23,10 +24,12 @@ pub struct Settings {
     /// The accurate kernel goes down no boxes: each ray looks at every solid. Slow; what the boxes may not change is
     /// tested against it.
     pub without_boxes: bool,
-    /// That an invocation of the accurate kernel traces in turn, where invocations come in packets: 1 to 8, in place
-    /// of what [suits the scene](crate::plan::TraversalCost::pixels_per_invocation). What that may not change is tested with it.
+    /// That an invocation of the accurate kernel traces one after another, where invocations come in packets: 1 to 8,
+    /// in place of what [suits the scene](crate::plan::TraversalCost::pixels_per_invocation). What that may not change
+    /// is tested with it.
     pub pixels: Option<u32>,
-    /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See [`sampling`](super::sampling).
+    /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See
+    /// [`sampling`](super::sampling).
     pub samples: u32,
     /// Size of the picture that is traced against the one asked for, to which it is brought by bilinear interpolation;
     /// 1/4 to 1. The course kernel takes 1.

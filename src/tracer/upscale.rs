@@ -95,8 +95,8 @@ fn traced_range(first: u32, count: u32, size: u32, traced_size: u32) -> (u32, u3
     (before(first), last - before(first) + 1)
 }
 
-/// No range of up to `count` pixels is longer: rounding down makes it one longer than the distance between its ends, and
-/// both ends are in it, with what is beyond the last.
+/// No range of up to `count` pixels is longer: rounding down makes it one longer than the distance between its ends,
+/// and both ends are in it, with what is beyond the last.
 fn most_traced(count: u32, size: u32, traced_size: u32) -> u32 {
     let between = u64::from(count - 1) * u64::from(traced_size) / u64::from(size);
     (between as u32 + 3).min(traced_size)

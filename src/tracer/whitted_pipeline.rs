@@ -143,7 +143,8 @@ impl WhittedPipeline {
         [LightSpheres::Somewhere, scene.view_uniforms.where_light_spheres_are()].contains(&self.light_spheres)
     }
 
-    /// In its place, for a scene that it does not fit. Where light spheres come in sight and go out of it, that is once for all.
+    /// In its place, for a scene that it does not fit. Where light spheres come in sight and go out of it, that is once
+    /// for all.
     pub fn replaced(&self, device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
         let is_seen_otherwise = self.pixels_are_served(scene, workgroup) && !self.light_spheres_are_served(scene);
         let light_spheres =

@@ -109,8 +109,8 @@ struct Order {
     surface: f64,
 }
 
-/// An order is kept while its boxes have no more than this many times the surface that they had when it was chosen: what
-/// a ray looks into goes by that.
+/// An order is kept while its boxes have no more than this many times the surface that they had when it was chosen:
+/// what a ray looks into goes by that.
 const MOST_SURFACE: f64 = 1.5;
 
 impl SolidRecords {

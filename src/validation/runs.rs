@@ -2,11 +2,13 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
+
 use super::selection::{by_shader, few_with_all};
 use crate::algorithm::{ALGORITHMS, Kernel};
 use crate::gpu::DeviceDescription;
 use crate::plan::{Limits, Plan, PlanError, Precision, Structure};
-use crate::scene::{Light, Scene, gallery};
+use crate::scene::{Camera, Light, Material, Primitive, Scene, Solid, gallery};
 use crate::settings::RenderSettings;
 use crate::settings::sampling::Sampling;
 use crate::tracer::{Settings, WORKGROUP};
@@ -21,8 +23,8 @@ const TILE_SIDE: u32 = 40;
 const ERROR: f64 = 1.0 / 510.0;
 
 /// A workgroup that does not come by eights along x, so that a kernel cannot count on
-/// [packets](DeviceDescription::packets). No plan chooses it; where there are packets, it shows the kernels of other devices,
-/// and few scenes are enough.
+/// [packets](DeviceDescription::packets). No plan chooses it; where there are packets, it shows the kernels of other
+/// devices, and few scenes are enough.
 const NARROW_WORKGROUP: [u32; 2] = [4, 8];
 
 /// More than one sample a pixel, and a smaller picture upscaled. One scene shows what these add behind the tracing.
@@ -85,7 +87,8 @@ fn subjects() -> Vec<Subject> {
     let entries = gallery::entries().into_iter();
     let mut subjects: Vec<_> =
         entries.filter_map(|entry| Some(subject(entry.name.clone(), gallery::scene(&entry.name)?))).collect();
-    // What the gallery does not have: nothing is lit and nothing reflected; a second light, and its ball in sight.
+    // What the gallery does not have: nothing is lit and nothing reflected; a second light, and its sphere in sight; a
+    // close-up.
     if let Some(showcase) = gallery::scene("showcase") {
         let position = showcase.camera.position + showcase.camera.direction;
         let lights = [showcase.lights.clone(), vec![Light { position, ..Light::default() }]].concat();
@@ -94,7 +97,21 @@ fn subjects() -> Vec<Subject> {
         subjects.push(subject(TWO_LIGHTS.to_owned(), two_lights));
         subjects.push(subject("showcase without lights and reflections".to_owned(), unlit));
     }
+    subjects.push(subject("a pillar on a planet".to_owned(), pillar_on_planet()));
     subjects
+}
+
+/// A close-up, of the two kinds whose records are others there.
+fn pillar_on_planet() -> Scene {
+    let of = |solid| Primitive { name: None, solid, material: Material::default() };
+    let planet = Solid::Sphere { center: DVec3::Y * -6.371e6, radius: 6.371e6 };
+    let pillar = Solid::Cylinder { ends: [DVec3::ZERO, DVec3::Y * 3.0], radius: 0.5 };
+    Scene {
+        camera: Camera { position: DVec3::new(0.0, 2.0, -10.0), ..Camera::default() },
+        lights: vec![Light { position: DVec3::new(9.0, 9.0, -9.0), ..Light::default() }],
+        primitives: vec![of(planet), of(pillar)],
+        ..Scene::default()
+    }
 }
 
 /// How to draw, apart from the scene.

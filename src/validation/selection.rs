@@ -15,10 +15,10 @@ pub(super) fn are_of_one_shader(a: &Run, b: &Run) -> bool {
     (a.settings.kernel, a.settings.workgroup) == (b.settings.kernel, b.settings.workgroup)
 }
 
-/// Those of the runs that [GPU-assisted validation](crate::gpu::Validation::GpuAssisted) draws, which makes each variant
-/// of a kernel compile for many seconds: in the whole those that show each switch on and off, else as few as have each
-/// access, by the kernels that plans choose on this device. (All at once in one scene would be fewer, but a kernel of all
-/// kinds with boxes over them takes minutes to compile once it is instrumented.)
+/// Those of the runs that [GPU-assisted validation](crate::gpu::Validation::GpuAssisted) draws, which makes each
+/// variant of a kernel compile for many seconds: in the whole those that show each switch on and off, else as few as
+/// have each access, by the kernels that plans choose on this device. (All at once in one scene would be fewer, but a
+/// kernel of all kinds with boxes over them takes minutes to compile once it is instrumented.)
 pub fn instrumented(runs: &[Run], scope: Scope) -> Vec<Run> {
     let of_one_shader = by_shader(runs).flat_map(|runs| match scope {
         Scope::Whole => few_with_all(runs, |_| true),
@@ -57,7 +57,7 @@ pub(super) fn few_with_all(runs: &[Run], counts: impl Fn(State) -> bool) -> Vec<
 }
 
 /// What plans turn on and off, with whether this run has it; `None` for the course's kernel, which is always the same.
-fn states(run: &Run) -> Option<[State; 16]> {
+fn states(run: &Run) -> Option<[State; 17]> {
     let &Settings { kernel, approximations, width, height, without_boxes, samples, scale, .. } = &run.settings;
     if kernel == Kernel::Course {
         return None;
@@ -74,10 +74,10 @@ fn states(run: &Run) -> Option<[State; 16]> {
         lights,
         shadows,
         reflections,
+        is_close_up,
         // A scene does not tell how it is sampled, nor whether invocations come in packets.
         samples: _,
         pixels: _,
-        is_close_up: _,
     } = Features::of(&records, &approximations, max_depth);
     Some([
         ("spheres", spheres),
@@ -86,6 +86,7 @@ fn states(run: &Run) -> Option<[State; 16]> {
         ("cones", cones),
         ("boxes over solids", levels != [0; 4] && !without_boxes),
         ("axis-aligned boxes", are_boxes_axis_aligned),
+        ("close-ups", is_close_up),
         ("highlights", highlights),
         ("light spheres", light_spheres > 0),
         ("lights", lights > 0),
@@ -128,7 +129,7 @@ mod tests {
     #[test]
     fn what_is_instrumented_is_little_and_has_each_access() {
         let device = device(true, true);
-        for (scope, a_shader) in [(Scope::Whole, 8), (Scope::EverySwitch, 2)] {
+        for (scope, a_shader) in [(Scope::Whole, 8), (Scope::EverySwitch, 3)] {
             let all = runs_on(&device, scope);
             let all: Vec<_> = match scope {
                 Scope::Whole => all,

@@ -84,8 +84,8 @@ impl Document {
         !self.saved.as_ref().is_some_and(|saved| is_same_work(saved, self.scene()))
     }
 
-    /// Writes the scene, with the camera as it stands, to a `.toml`, `.json` or `.zscene` file, which is the document's from then
-    /// on.
+    /// Writes the scene, with the camera as it stands, to a `.toml`, `.json` or `.zscene` file, which is the document's
+    /// from then on.
     ///
     /// # Errors
     /// Those of [`Scene::save`]; the document and the file stay as they were.

@@ -147,8 +147,8 @@ impl<'d> PictureWindow<'d> {
         self.swapchain.as_ref().map(Swapchain::present_mode)
     }
 
-    /// Traces the scene's picture and shows it once it is whole. Both are waited for, so that pictures by several kernels
-    /// can take turns and none pays for another.
+    /// Traces the scene's picture and shows it once it is whole. Both are waited for, so that pictures by several
+    /// kernels can take turns and none pays for another.
     ///
     /// `keep_going` is asked before every submission and can stop the work there.
     ///

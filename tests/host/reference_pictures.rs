@@ -222,7 +222,8 @@ fn it_intensities_up_to_the_largest_f64_stay_finite() {
     }
 }
 
-/// As small as the last places of the coordinates that far from the world's origin allow: the same picture as at the origin.
+/// As small as the last places of the coordinates that far from the world's origin allow: the same picture as at the
+/// origin.
 #[test]
 fn specks_far_from_the_world_s_origin_are_drawn_as_near_it() {
     let unit = 2f64.powi(-25);

@@ -109,7 +109,8 @@ fn a_light_ball_is_seen_by_primary_rays_only_and_blocks_nothing() {
         ..Scene::default()
     };
     assert_eq!(look(&scene, DVec3::Z * -5.0, DVec3::Z).first_hit, LIGHT_SPHERE);
-    // From between ball and sphere: both lights arrive, and the reflected ray passes through the ball to the background.
+    // From between ball and sphere: both lights arrive, and the reflected ray passes through the ball to the
+    // background.
     let seen = look(&scene, DVec3::Z * -2.0, DVec3::Z);
     let expected = 2.0 * (DVec3::new(0.3, 0.5, 0.7) + 1.0) + scene.background;
     assert!((seen.color - expected).length() < 1e-15, "{seen:?}");

@@ -1,4 +1,5 @@
-//! Closed forms and the release catalogue of docs/numerics.md, a ray at a time. DG (refused at load) is the scene module's.
+//! Closed forms and the release catalogue of docs/numerics.md, a ray at a time. DG (refused at load) is the scene
+//! module's.
 
 use std::f64::consts::{FRAC_1_SQRT_2, SQRT_2};
 

@@ -1,7 +1,7 @@
 //! What a scene lacks costs nothing: with the constants of its plan, no way through the kernel's code leads to it.
 //!
-//! A driver that knows a specialization constant drops the side of a branch that it rules out. This looks at what is left,
-//! in the code that drivers are given, and so holds for each of them.
+//! A driver that knows a specialization constant drops the side of a branch that it rules out. This looks at what is
+//! left, in the code that drivers are given, and so holds for each of them.
 
 use std::collections::BTreeSet;
 

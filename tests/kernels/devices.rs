@@ -7,7 +7,8 @@ use zerkalo::gpu::{Buffer, BufferKind};
 
 #[test]
 fn devices_come_and_go_while_other_threads_name_what_they_make() {
-    // Without the lock in `gpu/loader.rs`, 7 of 80 runs of this ended in a segmentation fault (loader 1.4.309, layer on).
+    // Without the lock in `gpu/loader.rs`, 7 of 80 runs of this ended in a segmentation fault (loader 1.4.309, layer
+    // on).
     const DEVICES: usize = 12;
     const BUFFERS: usize = 400;
     thread::scope(|scope| {

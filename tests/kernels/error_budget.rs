@@ -78,7 +78,8 @@ fn what_the_kernel_leaves_out_changes_no_pixel_by_more_than_the_bound() {
     assert!(changed_scenes > 100);
 }
 
-/// Of scenes whose light is about 1, for which the kernel's own tolerances are set, and whose rays are not spent by rounding.
+/// Of scenes whose light is about 1, for which the kernel's own tolerances are set, and whose rays are not spent by
+/// rounding.
 #[test]
 fn pictures_within_an_allowed_error_are_the_references_to_that_error() {
     let device = TestDevice::open();

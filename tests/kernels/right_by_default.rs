@@ -159,12 +159,12 @@ fn cluster(random: &mut Random) -> Scene {
     Scene { camera, lights, primitives, max_depth: 1 + (random.bits() % 5) as u32, ..Scene::default() }
 }
 
-/// Of pixels whose very centre an edge passes, f32 may see the other side: of 96x42 no more than 8 in these scenes of one or
-/// two solids.
+/// Of pixels whose very centre an edge passes, f32 may see the other side: of 96x42 no more than 8 in these scenes of
+/// one or two solids.
 const EDGES: f64 = 0.002;
 
-/// Draws random scenes in `f32` and compares what is wrong with what their plans say. Of the scenes that `f32` draws right,
-/// one in twenty may be given to `f64`; none that it draws wrong may be left to it.
+/// Draws random scenes in `f32` and compares what is wrong with what their plans say. Of the scenes that `f32` draws
+/// right, one in twenty may be given to `f64`; none that it draws wrong may be left to it.
 fn judge_plans(seeds: std::ops::Range<u64>) {
     let device = TestDevice::open();
     let mut tracers = Tracers::new(&device);
@@ -204,7 +204,7 @@ fn f32_is_chosen_where_it_is_right_and_nowhere_else() {
 }
 
 #[test]
-#[ignore = "takes four minutes"]
+#[ignore = "takes a quarter of an hour"]
 fn f32_is_chosen_where_it_is_right_in_two_thousand_scenes() {
     judge_plans(10_000..12_000);
 }

@@ -199,8 +199,8 @@ fn the_window_is_the_same_at_every_scale() {
     let whole = middle(1.0);
     for scale in [0.25, 0.3, 0.7] {
         let off = (middle(scale) - whole).abs().max_element();
-        // Some twenty pixels on the edge of a disk of forty, 4 pixels wide, each off by 0.013 of its area in its own way,
-        // come to 0.02 of a pixel; the samples' mean place is up to 0.004 of 4 pixels from the centre.
+        // Some twenty pixels on the edge of a disk of forty, 4 pixels wide, each off by 0.013 of its area in its own
+        // way, come to 0.02 of a pixel; the samples' mean place is up to 0.004 of 4 pixels from the centre.
         assert!(off < 0.1, "scale {scale}: {off} pixels");
     }
 }

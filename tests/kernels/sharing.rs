@@ -1,4 +1,5 @@
-//! Frames of a changing scene share what did not change: counted in bytes, and the picture is a fresh tracer's, bit for bit.
+//! Frames of a changing scene share what did not change: counted in bytes, and the picture is a fresh tracer's, bit for
+//! bit.
 
 use std::ops::ControlFlow;
 

@@ -174,8 +174,8 @@ fn all_arithmetic_of_the_exact_sums_and_products_has_no_contraction() {
     }
 }
 
-/// The probes' code, the kernels' own inlined and optimised: what starts with a multiplication by the splitter is a TwoProd, and so
-/// is what follows from it within its five steps.
+/// The probes' code, the kernels' own inlined and optimised: what starts with a multiplication by the splitter is a
+/// TwoProd, and so is what follows from it within its five steps.
 #[test]
 fn every_exact_product_in_the_probes_has_no_contraction() {
     let f32_splitter: &[u32] = &[4097_f32.to_bits()];

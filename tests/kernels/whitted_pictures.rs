@@ -95,8 +95,8 @@ fn pictures_lit_by_several_lights_are_the_references() {
         let truth = picture(&scene, width, height);
         let settings = RenderSettings { precision: Some(Precision::F32), ..RenderSettings::default() };
         let plan = Plan::for_scene(&scene, &settings, [width, height], &Limits::PROMISED).unwrap();
-        // Places are off by 32u of the scene's 10; two mirrors, round ones, multiply that by ten each, and a highlight's
-        // slope by five. The third of a light that a picture must not be off by is thirty times that.
+        // Places are off by 32u of the scene's 10; two mirrors, round ones, multiply that by ten each, and a
+        // highlight's slope by five. The third of a light that a picture must not be off by is thirty times that.
         let tolerance = 32.0 * 6e-8 * 10.0 * 100.0 * 5.0;
         for workgroup in [[8, 8], [4, 16]] {
             let settings = Settings { workgroup, ..Settings::planned(&plan) };

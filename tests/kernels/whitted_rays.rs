@@ -118,12 +118,12 @@ impl Tally {
         }
         let t_share = t_error / t_bar;
         let point_share = point_error / point_bar;
-        // Beyond the catalogue's distances a pair of numbers no longer holds the way: it keeps it to u², which across an
-        // axis, at a radius r and a distance t from it, is u²·t/r of the direction.
+        // Beyond the catalogue's distances a pair of numbers no longer holds the way: it keeps it to u², which across
+        // an axis, at a radius r and a distance t from it, is u²·t/r of the direction.
         let reach = hit.t / radius_at(&case.solid, truth.point);
         let beyond = if reach > FARTHEST { u * u * reach } else { 0.0 };
-        // A round side that the ray leaves by less than that has a clearance r·cos²θ/2 below H's band of 8u·r, where not
-        // even hit or miss is certain, and the tolerance is no smaller than cosθ itself.
+        // A round side that the ray leaves by less than that has a clearance r·cos²θ/2 below H's band of 8u·r, where
+        // not even hit or miss is certain, and the tolerance is no smaller than cosθ itself.
         let is_decided = truth.face != Face::Curved || cosine >= (16.0 * u).sqrt();
         let normal_error = if is_decided { (hit.normal - truth.normal).length() * cosine } else { 0.0 };
         let normal_share = normal_error / (8.0 * u + beyond);

@@ -176,7 +176,8 @@ impl TrueSolid {
                 let from = point.minus(apex);
                 let (radius, z) = (from.cross(axis).length(), from.dot(axis));
                 let slant = height / cos;
-                // In the half-plane (radius, z): the side leads from (0, 0) along (sin, cos), the base is at z = height.
+                // In the half-plane (radius, z): the side leads from (0, 0) along (sin, cos), the base is at z =
+                // height.
                 let along_side = smaller(larger(&radius * sin + &z * cos, real(0.0)), slant);
                 let side = length_2d(&radius - &along_side * sin, &z - &along_side * cos);
                 let beyond_rim = larger(&radius - height * sin / cos, real(0.0));

@@ -430,7 +430,8 @@ fn pipeline_caches(cache_home: &Path) -> Vec<PathBuf> {
     paths.filter(|path| path.extension().is_some_and(|extension| extension == "bin")).collect()
 }
 
-/// As programs end that SIGPIPE kills, and as their shell reports it; `zerkalo view --observe` is among the window's tests.
+/// As programs end that SIGPIPE kills, and as their shell reports it; `zerkalo view --observe` is among the window's
+/// tests.
 #[test]
 fn a_reader_that_went_away_ends_a_command_without_a_word() {
     let place = Place::new();

@@ -170,8 +170,8 @@ fn ratio(point: &Value) -> f64 {
     quartiles(&pairs.map(|(ours, baseline)| ours / baseline).collect::<Vec<_>>()).unwrap()[1]
 }
 
-/// The place that docs/commands.md promises for the fastest setting that keeps `error`: of those within 3 % of the fastest
-/// the one whose error is proven, then the most accurate, then the faster.
+/// The place that docs/commands.md promises for the fastest setting that keeps `error`: of those within 3 % of the
+/// fastest the one whose error is proven, then the most accurate, then the faster.
 fn promised_answer(points: &[Value], error: f64) -> usize {
     let own = |place: usize| points[place]["error"]["max_abs"].as_f64().filter(|own| *own <= error);
     let mut keeping: Vec<usize> = (0..points.len())
@@ -223,8 +223,8 @@ fn the_setting_chosen_for_an_error_keeps_it_and_is_the_promised_one() {
     }
 }
 
-/// `cargo test --release --test trade -- --ignored --nocapture`. Each scene is measured twice: what the first run chooses
-/// must also be within a tenth of the fastest of the second.
+/// `cargo test --release --test trade -- --ignored --nocapture`. Each scene is measured twice: what the first run
+/// chooses must also be within a tenth of the fastest of the second.
 #[test]
 #[ignore = "takes five minutes and a quiet machine"]
 fn on_ten_scenes_the_answers_hold_in_a_second_run() {

@@ -3,8 +3,8 @@
 use glam::{DMat3, DVec3};
 use zerkalo::scene::{Camera, Solid};
 
-/// Origin and direction of the ray through the middle of a pixel: docs/course-work.md's primary rays, with the window that the
-/// course's projection is.
+/// Origin and direction of the ray through the middle of a pixel: docs/course-work.md's primary rays, with the window
+/// that the course's projection is.
 pub fn primary_ray(camera: &Camera, [width, height]: [u32; 2], [column, row]: [u32; 2]) -> (DVec3, DVec3) {
     let (width, height) = (f64::from(width), f64::from(height));
     let (x, y) = ((f64::from(column) + 0.5) / width * 2.0 - 1.0, 1.0 - (f64::from(row) + 0.5) / height * 2.0);

@@ -76,8 +76,8 @@ fn the_panel_answers_while_a_slow_picture_is_traced() {
         median(&busy)
     );
     eprintln!("all of the latter: {busy:?}");
-    // The issue asks for 100 ms. xdotool's own start, the validation layers and the two cores, which the software device takes
-    // whole, are in the figure too; a window that waited for a picture of many seconds would be far off.
+    // The issue asks for 100 ms. xdotool's own start, the validation layers and the two cores, which the software
+    // device takes whole, are in the figure too; a window that waited for a picture of many seconds would be far off.
     assert!(median(&busy) < Duration::from_millis(250), "{busy:?}");
     window.close();
 }

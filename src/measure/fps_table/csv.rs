@@ -10,7 +10,8 @@ const COLUMNS: &str = "kind,count,kernel,\
     published_fps,of_fewest,published_of_fewest,of_spheres,published_of_spheres,\
     width,height,generations,device,driver,program,validation,present_mode";
 
-/// A line a cell below the columns' names (RFC 4180); the machine stands in every line, so that none is read without it.
+/// A line a cell below the columns' names (RFC 4180); the machine stands in every line, so that none is read without
+/// it.
 pub fn of(table: &FpsTable) -> String {
     let lines = figures(table).iter().map(|figures| line(table, figures)).collect::<Vec<_>>();
     [&[COLUMNS.to_owned()], &lines[..]].concat().join("\n") + "\n"

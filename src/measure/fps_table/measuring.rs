@@ -6,7 +6,7 @@ use super::{Cell, Plan, kernel_of};
 use crate::algorithm::Algorithm;
 use crate::gpu::Device;
 use crate::measure::{FrameTime, TimedTracer};
-use crate::plan as render_plan;
+use crate::plan::Plan as RenderPlan;
 use crate::scene::{Scene, SolidKind, gallery};
 use crate::settings::RenderSettings;
 use crate::tracer::{Settings, TracerError, limits_of};
@@ -46,7 +46,7 @@ impl Stage for OffScreen {
                 ..RenderSettings::default()
             };
             let limits = limits_of(self.device.description());
-            let planned = render_plan::Plan::for_scene(scene, &settings, [plan.width, plan.height], &limits);
+            let planned = RenderPlan::for_scene(scene, &settings, [plan.width, plan.height], &limits);
             let settings = Settings::planned(&planned.map_err(|error| TracerError::Refused(error.to_string()))?);
             Ok((algorithm, TimedTracer::new(&self.device, scene, &settings)?))
         };
@@ -76,9 +76,9 @@ struct Run {
     time: Duration,
 }
 
-/// Measures all kernels of the plan on `count` solids of the kind, standing as in table 4.1. Their frames alternate, each
-/// next one by the kernel that is least far in its budget, so that what else the machine does meets them alike. Every
-/// kernel's first frame is left out: drivers compile, and caches fill.
+/// Measures all kernels of the plan on `count` solids of the kind, standing as in table 4.1. Their frames alternate,
+/// each next one by the kernel that is least far in its budget, so that what else the machine does meets them alike.
+/// Every kernel's first frame is left out: drivers compile, and caches fill.
 ///
 /// `keep_going` is asked after every tile and can stop the work there; then there is no cell.
 ///

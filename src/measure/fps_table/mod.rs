@@ -1,5 +1,5 @@
-//! Table 4.1 of the course work measured anew: frames a second by kind of solids, their number and the kernel that draws
-//! them, beside the published ones.
+//! Table 4.1 of the course work measured anew: frames a second by kind of solids, their number and the kernel that
+//! draws them, beside the published ones.
 
 mod agreement;
 mod chart;

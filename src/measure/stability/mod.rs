@@ -1,4 +1,5 @@
-//! The catalogue of extremes (docs/numerics.md): what each kernel makes of every case, in units that a tolerance is stated in.
+//! The catalogue of extremes (docs/numerics.md): what each kernel makes of every case, in units that a tolerance is
+//! stated in.
 
 mod judge;
 mod loading;

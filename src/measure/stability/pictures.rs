@@ -100,7 +100,7 @@ fn like_reference(id: &str, scene: impl Fn() -> Scene + 'static) -> Case {
 }
 
 /// The same scene at another scale or place is the same picture; of the course kernel too, against its own. Only pixels
-/// that show solids in both count: the light's ball has one size in every scene.
+/// that show solids in both count: the light sphere has one size in every scene.
 fn moved(subject: &Subject, moves: &[(f64, DVec3)]) -> Result<Vec<Measured>, TracerError> {
     let scene = gallery::scene("four").unwrap_or_default();
     let (size, precision) = (size(subject), subject.kernel.precision());
@@ -143,9 +143,9 @@ fn closed_rooms(subject: &Subject) -> Result<Vec<Measured>, TracerError> {
     Ok(vec![Measured::none_of("rays that escape from a closed room", escaped)])
 }
 
-/// Spheres that mirror each other multiply an angular error by about 5 a bounce (docs/numerics.md): a hit's of 8u is still
-/// below the tolerance after 5 bounces in `f32`, 8u·5⁵ = 1.5e-3, and after 8 in `f64`. Deeper, it must stay finite and within
-/// what shines.
+/// Spheres that mirror each other multiply an angular error by about 5 a bounce (docs/numerics.md): a hit's of 8u is
+/// still below the tolerance after 5 bounces in `f32`, 8u·5⁵ = 1.5e-3, and after 8 in `f64`. Deeper, it must stay
+/// finite and within what shines.
 fn facing(subject: &Subject) -> Result<Vec<Measured>, TracerError> {
     let judged_depth = match subject.kernel.precision() {
         Precision::F32 => 5,
@@ -189,7 +189,7 @@ fn dazzling(subject: &Subject) -> Result<Vec<Measured>, TracerError> {
 
 fn empty(subject: &Subject) -> Result<Vec<Measured>, TracerError> {
     let mut scene = Scene { background: DVec3::new(0.125, 0.25, 0.375), ..Scene::default() };
-    // The camera must not look at the light's ball.
+    // The camera must not look at the light sphere.
     scene.lights.iter_mut().for_each(|light| light.position = DVec3::new(0.0, 0.0, -100.0));
     let Some(pixels) = picture(subject, &scene, size(subject))? else { return Ok(Vec::new()) };
     Ok(vec![Measured::none_of(

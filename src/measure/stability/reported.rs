@@ -1,5 +1,5 @@
-//! Cases after bug reports of other ray tracers: scenes that are wrong in `f32`, and lights where a face sees them neither
-//! from above nor from below.
+//! Cases after bug reports of other ray tracers: scenes that are wrong in `f32`, and lights where a face sees them
+//! neither from above nor from below.
 
 use glam::DVec3;
 
@@ -139,7 +139,7 @@ fn lit_along(solid: Solid, light: DVec3) -> Scene {
     scene
 }
 
-/// All of it within the ball of its light.
+/// All of it within the sphere of its light.
 fn tiny() -> Scene {
     let ball = Solid::Sphere { center: DVec3::ZERO, radius: 1e-30 };
     let place = DVec3::X * 1.2e-30;

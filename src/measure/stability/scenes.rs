@@ -147,7 +147,7 @@ pub(super) fn cloud(count: usize) -> Scene {
     }
 }
 
-/// The scene `scale` times as large about the world's origin, then moved. A light's ball keeps its size.
+/// The scene `scale` times as large about the world's origin, then moved. A light sphere keeps its size.
 pub(super) fn moved_and_scaled(scene: &Scene, shift: DVec3, scale: f64) -> Scene {
     let place = |point: DVec3| shift + point * scale;
     let mut scene = scene.clone();
@@ -201,7 +201,7 @@ pub(super) fn sheet_ball_on_floor() -> Scene {
         Solid::Cone { apex: DVec3::new(1.5, 2.0, 0.5), axis: DVec3::NEG_Y, height: 2.0, half_angle_degrees: 25.0 };
     Scene {
         camera: seen_from(DVec3::new(0.0, 3.0, -9.0), DVec3::new(0.0, 0.8, 0.0), 32.0),
-        // So far that its ball, which has one size in every scene, is not in the picture.
+        // So far that its sphere, which has one size in every scene, is not in the picture.
         lights: vec![light(-60.0, 90.0, -60.0)],
         primitives: [floor, ball, cone].map(|solid| primitive(solid, matt())).to_vec(),
         ..Scene::default()

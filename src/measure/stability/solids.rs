@@ -78,7 +78,8 @@ pub(super) fn rays_at(solid: &Solid, distance: f64, count: usize, precision: Pre
         .collect()
 }
 
-/// `count` rays from `distance` sizes away that pass a sphere's centre, or a cylinder's axis, at `radius`·(1 + clearance).
+/// `count` rays from `distance` sizes away that pass a sphere's centre, or a cylinder's axis, at `radius`·(1 +
+/// clearance).
 pub(super) fn grazing(
     solid: &Solid,
     distance: f64,

@@ -1,9 +1,9 @@
 //! The price of accuracy: what every setting of a sweep takes and how far its picture is from the truth, on one device
 //! and one scene.
 //!
-//! The truth is the reference's, of one of two pictures ([`Target`]). Times are GPU times of pairs of frames, one by the
-//! baseline and one by the setting, so that whatever slows the machine down slows both: settings are compared by the
-//! ratio of a pair.
+//! The truth is the reference's, of one of two pictures ([`Target`]). Times are GPU times of pairs of frames, one by
+//! the baseline and one by the setting, so that whatever slows the machine down slows both: settings are compared by
+//! the ratio of a pair.
 
 mod chart;
 mod choice;
@@ -108,7 +108,8 @@ impl PictureError {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Point {
     pub setting: RenderSettings,
-    /// What it leaves out changes no linear channel by more: proven, rounding not in it. `None` where nothing is proven.
+    /// What it leaves out changes no linear channel by more: proven, rounding not in it. `None` where nothing is
+    /// proven.
     pub bound: Option<f64>,
     pub error: PictureError,
     /// Of pairs of frames, in order: the baseline's and the setting's.

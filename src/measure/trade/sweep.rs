@@ -23,8 +23,8 @@ pub struct Axes {
 }
 
 impl Axes {
-    /// All of everything; `asked`: errors that are asked for. A picture is mostly far within its bound, so that a larger
-    /// allowed error may keep what is asked for, too.
+    /// All of everything; `asked`: errors that are asked for. A picture is mostly far within its bound, so that a
+    /// larger allowed error may keep what is asked for, too.
     pub fn full(target: Target, asked: &[f64]) -> Self {
         let mut errors = [2550.0, 510.0, 255.0, 100.0, 30.0, 10.0].map(|part| 1.0 / part).to_vec();
         errors.extend(asked.iter().flat_map(|error| [1.0, 4.0].map(|times| times * error)));
@@ -58,7 +58,8 @@ pub struct Planned {
 /// The settings to measure, the baseline first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
-    /// Exactly by the accurate kernel in `f32`: what `zerkalo render` does unless told otherwise, or the scene needs `f64`.
+    /// Exactly by the accurate kernel in `f32`: what `zerkalo render` does unless told otherwise, or the scene needs
+    /// `f64`.
     pub baseline: Planned,
     /// Without the baseline; no two of them draw the same picture in the same way.
     pub others: Vec<Planned>,
@@ -107,9 +108,9 @@ impl Sweep {
     }
 }
 
-/// Every algorithm that can leave something out, in each precision: exactly; with each allowed error; with each number of
-/// generations; without boxes. In the first of its precisions with each number of samples and at each scale, if it has
-/// those. What can leave out nothing only exactly.
+/// Every algorithm that can leave something out, in each precision: exactly; with each allowed error; with each number
+/// of generations; without boxes. In the first of its precisions with each number of samples and at each scale, if it
+/// has those. What can leave out nothing only exactly.
 fn candidates(scene: &Scene, axes: &Axes) -> Vec<RenderSettings> {
     let mut rows: Vec<&Description> =
         ALGORITHMS.iter().filter(|row| row.is_on_device() && axes.algorithms.contains(&row.algorithm)).collect();

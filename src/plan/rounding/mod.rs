@@ -1,11 +1,13 @@
 //! Whether a picture drawn in `f32` is right.
 //!
-//! Where no length of a scene is many thousand times another, rounding moves nothing by what a picture could show: that is
-//! tested, over the catalogue and random scenes. Elsewhere a sample of the picture's pixels is traced twice on the CPU: by
-//! the [reference](crate::reference), and with the numbers, formulations and roundings of the `f32` kernel. That is an
-//! estimate, tested against the kernel itself on thousands of random scenes (`tests/kernels/right_by_default.rs`).
+//! Where no length of a scene is many thousand times another, rounding moves nothing by what a picture could show: that
+//! is tested, over the catalogue and random scenes. Elsewhere a sample of the picture's pixels is traced twice on the
+//! CPU: by the [reference](crate::reference), and with the numbers, formulations and roundings of the `f32` kernel.
+//! That is an estimate, tested against the kernel itself on thousands of random scenes
+//! (`tests/kernels/right_by_default.rs`).
 
 mod line;
+mod meet;
 mod sides;
 mod solids;
 mod world;
@@ -118,8 +120,8 @@ impl Doubt {
     /// How many of the pixels that are tried may be wrong.
     fn allowed(self, tried: usize) -> usize {
         let share = match self {
-            // Of a picture with 5 in 1000 wrong, more than that of 2048 are, with a probability of 99.7 %; of fewer, with
-            // a lower one.
+            // Of a picture with 5 in 1000 wrong, more than that of 2048 are, with a probability of 99.7 %; of fewer,
+            // with a lower one.
             Self::Lengths => 0.001,
             // Single pixels at the edges of images in images, which `f64` would be dear for.
             Self::Mirrors => 0.005,
@@ -128,19 +130,19 @@ impl Doubt {
     }
 }
 
-/// An angle's error is at most that of a surface, 8u, against its size; where mirrors magnify it to less than 1/510, it is
-/// not seen.
+/// An angle's error is at most that of a surface, 8u, against its size; where mirrors magnify it to less than 1/510, it
+/// is not seen.
 const MILD_RATIO_IN_MIRRORS: f64 = 1.0 / (510.0 * 8.0 * (f32::EPSILON as f64 / 2.0));
 
 /// A quarter of a pixel.
 const MILD_SHIFT_PIXELS: f64 = 0.25;
 
-/// How much a curved mirror magnifies the error of an angle: about that between facing spheres (catalogue MR-2), which are
-/// nearer to each other than most.
+/// How much a curved mirror magnifies the error of an angle: about that between facing spheres (catalogue MR-2), which
+/// are nearer to each other than most.
 const MIRROR_GAIN: f64 = 5.0;
 
-/// For a picture of so many pixels in `depth` generations, silhouettes of which that are seen directly move by no more than
-/// `shift_pixels`.
+/// For a picture of so many pixels in `depth` generations, silhouettes of which that are seen directly move by no more
+/// than `shift_pixels`.
 pub fn of_f32(lengths: &Lengths, depth: u32, size: [u32; 2], shift_pixels: f64) -> Rounding {
     let scene = lengths.scene;
     if scene.primitives.is_empty() {
@@ -170,8 +172,8 @@ fn rays_of_pixel(scene: &Scene, depth: u32) -> f64 {
     generations * (1 + scene.lights.len()) as f64
 }
 
-/// Whether a light is above the plane of a flat face by so little that `f32` takes it for one in the plane: then the face
-/// loses its highlight.
+/// Whether a light is above the plane of a flat face by so little that `f32` takes it for one in the plane: then the
+/// face loses its highlight.
 fn has_grazing_light(lengths: &Lengths) -> bool {
     let scene = lengths.scene;
     let least = lengths.extent() / MILD_RATIO;

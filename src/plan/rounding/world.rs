@@ -3,7 +3,8 @@
 use glam::{DVec3, Vec3};
 
 use super::line::{Face, Ray, unit};
-use super::solids::{F32Hit, F32Solid, Origin, SURFACE_ERROR, is_large_enough};
+use super::meet::{F32Hit, Origin};
+use super::solids::{F32Solid, SURFACE_ERROR, is_large_enough};
 use crate::plan::solids;
 use crate::scene::{BoundingSphere, Camera, Light, Projection, Scene, SceneSpace};
 

@@ -187,8 +187,9 @@ impl PreparedSolid {
 
     /// First point ahead of the ray's origin: where the ray enters, or leaves if it starts inside.
     ///
-    /// An origin within rounding of the surface is on it. The bound is docs/numerics.md's t > 8u(|p|∞ + S)/|n·w|, set against
-    /// depths instead: beside an edge the face that the ray leaves by need not be the one that its origin is on.
+    /// An origin within rounding of the surface is on it. The bound is docs/numerics.md's t > 8u(|p|∞ + S)/|n·w|, set
+    /// against depths instead: beside an edge the face that the ray leaves by need not be the one that its origin is
+    /// on.
     pub fn first_hit(&self, ray: &Ray, origin: Origin) -> Option<SolidHit> {
         let relative_error = match origin {
             Origin::Free => SOLVE_ERROR,
@@ -213,9 +214,9 @@ impl PreparedSolid {
         (exit.t > 0.0 && self.deepest_ahead(&line, interval) > position_error).then_some(exit)
     }
 
-    /// Where a ray that starts on the inner side of `face` leaves. Rounding may have put its origin a little beyond this
-    /// or another face, where the interval is empty or ends behind; but a ray inside a convex solid does leave it: then
-    /// it does so where it starts.
+    /// Where a ray that starts on the inner side of `face` leaves. Rounding may have put its origin a little beyond
+    /// this or another face, where the interval is empty or ends behind; but a ray inside a convex solid does leave it:
+    /// then it does so where it starts.
     fn exit_from_inside(&self, ray: &Ray, face: Face) -> SolidHit {
         let line = RecentredLine::new(ray, self.anchor);
         match self.interval(&line).map(|interval| self.hit_at(&line, interval.far, Side::Inside)) {
@@ -229,8 +230,8 @@ impl PreparedSolid {
         }
     }
 
-    /// Whether the first hit of a ray whose direction leads from its origin to `target` lies before the target. A target
-    /// on this solid's surface, to rounding, is not hidden by it from the side the ray comes from.
+    /// Whether the first hit of a ray whose direction leads from its origin to `target` lies before the target. A
+    /// target on this solid's surface, to rounding, is not hidden by it from the side the ray comes from.
     pub fn hides(&self, target: DVec3, ray: &Ray, origin: Origin) -> bool {
         self.first_hit(ray, origin).is_some_and(|hit| {
             let height_of_target = (1.0 - hit.t) * hit.normal.dot(ray.direction).abs();
@@ -238,8 +239,8 @@ impl PreparedSolid {
         })
     }
 
-    /// How far a place is from the plane of a face, on this side of it; `None` of a curved face. A place that lies in the
-    /// plane to rounding is not on either side: 0.
+    /// How far a place is from the plane of a face, on this side of it; `None` of a curved face. A place that lies in
+    /// the plane to rounding is not on either side: 0.
     pub fn height_above(&self, face: Face, side: Side, place: DVec3) -> Option<f64> {
         let from_anchor = DoubleDouble3::from(place) - self.anchor;
         let beyond = match (&self.shape, face) {
@@ -263,8 +264,8 @@ impl PreparedSolid {
         relative_error * (point.abs().max_element() + self.size)
     }
 
-    /// At least half of the greatest depth that the line reaches from its origin on: depth is concave along a chord, and
-    /// this is the depth at its middle.
+    /// At least half of the greatest depth that the line reaches from its origin on: depth is concave along a chord,
+    /// and this is the depth at its middle.
     fn deepest_ahead(&self, line: &RecentredLine, interval: Interval) -> f64 {
         let start = interval.near.s.max(-line.t_closest);
         let middle = (start + interval.far.s) * 0.5;

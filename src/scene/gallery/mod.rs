@@ -1,8 +1,8 @@
 //! Ready scenes: the program's own showcase, the figures of the course work and the grids of its table 4.1;
 //! and families of scenes that have any number of solids.
 //!
-//! All but the families are made here and written to `scenes/`, so that they can be drawn without the files and read without the
-//! program.
+//! All but the families are made here and written to `scenes/`, so that they can be drawn without the files and read
+//! without the program.
 
 mod families;
 mod figures;

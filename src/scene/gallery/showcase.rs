@@ -1,7 +1,7 @@
 //! What the program draws when nothing else is asked for: the four solids between two mirrors, lit from the side.
 //!
-//! One light, since the course's kernel knows only one; and mirrors that the camera sees at a slant, since that kernel's
-//! highlight is a headlight spot, which a mirror facing the camera would show as one white sheet.
+//! One light, since the course's kernel knows only one; and mirrors that the camera sees at a slant, since that
+//! kernel's highlight is a headlight spot, which a mirror facing the camera would show as one white sheet.
 
 use glam::DVec3;
 

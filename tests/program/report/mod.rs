@@ -1,5 +1,5 @@
-//! The page of `zerkalo report` as a reader meets it: in a browser, on a telephone and on a desk, in both languages; and
-//! the command, which a user may stop.
+//! The page of `zerkalo report` as a reader meets it: in a browser, on a telephone and on a desk, in both languages;
+//! and the command, which a user may stop.
 
 mod browser;
 mod example;
