@@ -12,11 +12,11 @@ use super::options::{parse_algorithm, parse_size};
 use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files};
 use crate::algorithm::Algorithm;
 use crate::gpu::{Device, Messages, Validation};
-use crate::measure::fps_table::{self, FpsTable, OffScreen, Plan, Stage};
+use crate::measure::fps_table::{self, FpsTable, OffScreen, Plan, Stage, no_scene, settings_of};
 use crate::measure::output::{OutputError, ReportFormat, Table, check_output_path};
 use crate::measure::{Budget, FrameTime, Machine};
 use crate::scene::{Scene, SolidKind};
-use crate::tracer::TracerError;
+use crate::tracer::{Settings, TracerError};
 use crate::viewer::{Display, PictureWindow, Shown};
 
 /// Measure frames a second by kind and number of solids, as in table 4.1 of the course work, beside its figures
@@ -132,18 +132,26 @@ fn in_window<'d>(
     let window = PictureWindow::open(display, size, wanted, validation, &messages)?;
     let present_mode = window.present_mode().map(str::to_owned);
     let machine = Machine { present_mode, ..Machine::of(window.device().description()) };
-    Ok(Scaffold { stage: Box::new(InWindow { window, scene: Scene::default() }), machine, messages })
+    Ok(Scaffold {
+        stage: Box::new(InWindow { window, scene: Scene::default(), settings: Vec::new() }),
+        machine,
+        messages,
+    })
 }
 
 /// Frames that are shown.
 struct InWindow<'d> {
     window: PictureWindow<'d>,
     scene: Scene,
+    settings: Vec<(Algorithm, Settings)>,
 }
 
 impl Stage for InWindow<'_> {
     fn set_scene(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError> {
-        self.scene = Scene { max_depth: plan.generations, ..scene.clone() };
+        let device = self.window.device().description();
+        let settings = |&algorithm: &Algorithm| Ok((algorithm, settings_of(algorithm, scene, plan, device)?));
+        self.settings = plan.algorithms.iter().map(settings).collect::<Result<_, TracerError>>()?;
+        self.scene = scene.clone();
         Ok(())
     }
 
@@ -152,8 +160,9 @@ impl Stage for InWindow<'_> {
         algorithm: Algorithm,
         keep_going: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<FrameTime, TracerError> {
-        let Shown { gpu_time_ns, wall_time } =
-            self.window.show(fps_table::kernel_of(algorithm)?, &self.scene, keep_going)?;
+        let settings = self.settings.iter().find(|(known, _)| *known == algorithm);
+        let (_, settings) = settings.ok_or_else(|| no_scene(algorithm))?;
+        let Shown { gpu_time_ns, wall_time } = self.window.show(settings, &self.scene, keep_going)?;
         Ok(FrameTime { gpu_time_ns, wall_time })
     }
 }

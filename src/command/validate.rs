@@ -8,7 +8,7 @@ use clap::Args;
 use super::interrupt::Listener;
 use super::{Checks, DeviceArgs, ValidationFailed, print_json, print_line, progress_bar};
 use crate::gpu::{self, Device, Messages, Validation};
-use crate::tracer::{Kernel, TracerError, limits_of};
+use crate::tracer::{Kernel, Settings, TracerError, limits_of};
 use crate::validation::{
     Findings, Group, OffScreen, Outcome, PICTURE, Pass, Program, Remarked, Run, Scope, Switch, TriedCheck,
     draw_off_screen, instrumented, runs,
@@ -193,7 +193,9 @@ fn show_all(
 ) -> Result<(), TracerError> {
     for (place, run) in runs.iter().enumerate() {
         let before = messages.count();
-        let shown = window.show(run.settings.kernel, &run.scene, &mut || observe(place));
+        let Settings { kernel, width, height, .. } = run.settings;
+        let as_in_window = Settings { kernel, ..Settings::new(width, height) };
+        let shown = window.show(&as_in_window, &run.scene, &mut || observe(place));
         findings.note(&format!("in a window: {}", run.name), messages, before);
         shown?;
     }

@@ -19,7 +19,7 @@ use crate::gpu::{
     Validation,
 };
 use crate::scene::Scene;
-use crate::tracer::{Canvas, Kernel, TracerError};
+use crate::tracer::{Canvas, Kernel, Settings, TracerError};
 
 /// Where windows are opened. There is one in a program, on its first thread.
 pub struct Display {
@@ -157,11 +157,12 @@ impl<'d> PictureWindow<'d> {
     /// picture's size any more.
     pub fn show(
         &mut self,
-        kernel: Kernel,
+        settings: &Settings,
         scene: &Scene,
         keep_going: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<Shown, TracerError> {
-        let place = self.canvas_by(kernel)?;
+        let place = self.canvas_by(settings.kernel)?;
+        self.canvases[place].1.set_settings(settings.clone());
         loop {
             // A picture that had to wait for the window to be seen is no measure of anything: once more.
             if let Some(shown) = self.try_to_show(place, scene, keep_going)? {

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use super::{Cell, Plan, kernel_of};
 use crate::algorithm::Algorithm;
-use crate::gpu::Device;
+use crate::gpu::{Device, DeviceDescription};
 use crate::measure::{FrameTime, TimedTracer};
 use crate::plan::Plan as RenderPlan;
 use crate::scene::{Scene, SolidKind, gallery};
@@ -24,6 +24,31 @@ pub trait Stage {
     ) -> Result<FrameTime, TracerError>;
 }
 
+/// How an algorithm draws a cell's scene on a device: as `zerkalo render` does.
+///
+/// # Errors
+/// The table is not measured with the algorithm, or the scene does not fit the device.
+pub fn settings_of(
+    algorithm: Algorithm,
+    scene: &Scene,
+    plan: &Plan,
+    device: &DeviceDescription,
+) -> Result<Settings, TracerError> {
+    let settings = RenderSettings {
+        algorithm,
+        precision: Some(kernel_of(algorithm)?.precision()),
+        max_depth: Some(plan.generations),
+        ..RenderSettings::default()
+    };
+    let planned = RenderPlan::for_scene(scene, &settings, [plan.width, plan.height], &limits_of(device));
+    Ok(Settings::planned(&planned.map_err(|error| TracerError::Refused(error.to_string()))?))
+}
+
+/// Of an algorithm that is not in the plan.
+pub fn no_scene(algorithm: Algorithm) -> TracerError {
+    TracerError::Refused(format!("no scene for the {} algorithm", algorithm.name()))
+}
+
 /// Frames that go to the host's memory, and nothing is shown.
 pub struct OffScreen {
     device: Arc<Device>,
@@ -39,15 +64,7 @@ impl OffScreen {
 impl Stage for OffScreen {
     fn set_scene(&mut self, scene: &Scene, plan: &Plan) -> Result<(), TracerError> {
         let tracer = |&algorithm: &Algorithm| {
-            let settings = RenderSettings {
-                algorithm,
-                precision: Some(kernel_of(algorithm)?.precision()),
-                max_depth: Some(plan.generations),
-                ..RenderSettings::default()
-            };
-            let limits = limits_of(self.device.description());
-            let planned = RenderPlan::for_scene(scene, &settings, [plan.width, plan.height], &limits);
-            let settings = Settings::planned(&planned.map_err(|error| TracerError::Refused(error.to_string()))?);
+            let settings = settings_of(algorithm, scene, plan, self.device.description())?;
             Ok((algorithm, TimedTracer::new(&self.device, scene, &settings)?))
         };
         // The last scene's pictures make room before.
@@ -62,8 +79,7 @@ impl Stage for OffScreen {
         keep_going: &mut dyn FnMut() -> ControlFlow<()>,
     ) -> Result<FrameTime, TracerError> {
         let found = self.tracers.iter_mut().find(|(known, ..)| *known == algorithm);
-        let (_, tracer) =
-            found.ok_or_else(|| TracerError::Refused(format!("no scene for the {} kernel", algorithm.name())))?;
+        let (_, tracer) = found.ok_or_else(|| no_scene(algorithm))?;
         tracer.draw(keep_going)
     }
 }

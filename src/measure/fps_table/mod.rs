@@ -17,7 +17,7 @@ pub use agreement::{Agreement, Bend, Ratio};
 pub use figures::{Figures, figures};
 pub use file::FpsTableError;
 pub use markdown::spread;
-pub use measuring::{OffScreen, Stage, measure};
+pub use measuring::{OffScreen, Stage, measure, no_scene, settings_of};
 pub use published::{CLAIMED_OF_SPHERES, CLAIMED_ORDER, published};
 pub use speeds::Speeds;
 
@@ -31,7 +31,7 @@ use crate::tracer::TracerError;
 ///
 /// # Errors
 /// The table is not measured with it.
-pub fn kernel_of(algorithm: Algorithm) -> Result<Kernel, TracerError> {
+fn kernel_of(algorithm: Algorithm) -> Result<Kernel, TracerError> {
     let description = algorithm.description();
     let kernel = description.is_in_fps_table.then(|| algorithm.kernel(Precision::F32)).flatten();
     kernel.ok_or_else(|| TracerError::Refused(format!("table 4.1 is not measured with {}", description.name)))
