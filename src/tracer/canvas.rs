@@ -2,6 +2,7 @@
 
 mod host;
 mod images;
+mod kernels;
 mod timing;
 
 use std::sync::Arc;
@@ -11,7 +12,7 @@ use super::chunks::{Pace, Sweep};
 use super::live_kernel::{LiveKernel, State};
 use super::pixels::pixel_buffer;
 use super::{Kernel, Settings, TracerError};
-use crate::gpu::{Builds, Device, GpuError, InFlight, Recorder, Resource, Shader, Use};
+use crate::gpu::{Builds, Device, GpuError, InFlight, Recorder, Resource, Use};
 use crate::scene::Scene;
 use crate::settings::sampling::Sampling;
 use images::{Image, Upscaling, images};
@@ -105,47 +106,6 @@ impl Canvas {
     /// The picture to look at, once it is [upscaled](Canvas::upscale).
     pub fn picture(&self) -> &Resource {
         self.upscaling.as_ref().map_or(&self.images[self.shown].resource, |upscaling| &upscaling.picture)
-    }
-
-    /// A kernel from the next chunk on; where it is another one, which is told, the picture is to be
-    /// [asked for](Canvas::show) again.
-    pub fn use_kernel(&mut self, kind: Kernel) -> Result<bool, TracerError> {
-        if kind == self.kind {
-            return Ok(false);
-        }
-        let kernel = LiveKernel::new(&self.device, kind, &self.builds)?;
-        self.replace_kernel(kernel, kind);
-        Ok(true)
-    }
-
-    /// Another build of a shader of the program from the next chunk on; where the kernel is made from it, the picture
-    /// is to be [asked for](Canvas::show) again.
-    ///
-    /// # Errors
-    /// The device does not take it; the last build goes on.
-    pub fn replace_shader(&mut self, build: Shader) -> Result<(), TracerError> {
-        let own = self.kernel.shader();
-        let is_used = own.name == build.name && self.builds.of(own).spirv() != build.spirv();
-        let mut builds = self.builds.clone();
-        builds.put(build);
-        if is_used {
-            self.kernel.rebuild(&self.device, &builds)?;
-            self.begin_anew();
-        }
-        self.builds = builds;
-        Ok(())
-    }
-
-    /// What kernels are made from, in the place of the program's own.
-    pub fn builds(&self) -> &Builds {
-        &self.builds
-    }
-
-    fn replace_kernel(&mut self, kernel: LiveKernel, kind: Kernel) {
-        self.kernel = kernel;
-        self.kind = kind;
-        self.dropped.extend(self.pixels.take());
-        self.begin_anew();
     }
 
     /// Nothing of the kernel before is of use.
