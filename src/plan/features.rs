@@ -59,7 +59,7 @@ impl Kept {
 }
 
 impl Plan {
-    /// As the kernel is compiled for a picture of one sample a pixel on a device whose invocations come in packets.
+    /// As the kernel is compiled on a device whose invocations come in packets; on others an invocation has one pixel.
     pub fn features(&self) -> Features {
         let levels = |structure: &Structure| match *structure {
             Structure::None => 0,
@@ -75,7 +75,7 @@ impl Plan {
             lights: self.lights.choice.min(2) as u32,
             shadows: self.shadows.choice,
             reflections: self.generations.choice > 1,
-            samples: false,
+            samples: self.settings.samples > 1,
             pixels: self.pixels.choice,
         }
     }

@@ -481,11 +481,12 @@ fn a_kernel_is_compiled_for_what_the_plan_says() {
         }
         let precision = if number % 2 == 0 { Precision::F32 } else { Precision::F64 };
         let error = if number % 3 == 0 { 0.01 } else { 0.0 };
-        let settings = RenderSettings { precision: Some(precision), error, ..RenderSettings::default() };
+        let samples = 1 + number % 5 / 4;
+        let settings = RenderSettings { precision: Some(precision), error, samples, ..RenderSettings::default() };
         let plan = Plan::for_scene(&scene, &settings, [64, 28], &DEVICE).unwrap();
         let records = WhittedRecords::of(&scene, scene_space(&scene, Kernel::Whitted(precision)), precision, [64, 28]);
         let compiled = Features::of(&records, &plan.approximations, plan.generations.choice);
-        let compiled = Features { pixels: plan.pixels.choice, ..compiled };
+        let compiled = Features { pixels: plan.pixels.choice, samples: samples > 1, ..compiled };
         assert_eq!(plan.features(), compiled, "scene {number}: {scene:?}");
         assert_eq!(plan.counts.map(|count| count as u32), records.solids.counts, "scene {number}");
         small += usize::from(plan.counts.iter().sum::<usize>() < scene.primitives.len());
