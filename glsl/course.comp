@@ -15,7 +15,7 @@
 //  7. The order of rounding is written down as the goldens have it (rounding.glsl; tried on lavapipe alone): `dot`,
 //     `normalize`, `reflect` and `length` are redefined, and B.2 turns into a box's frame by `rotate(m, v)` for m * v.
 //  8. The line breaks and indents that the transcription lost are restored.
-#include "interface.glsl"
+#include "course/interface.glsl"
 
 layout(constant_id = 0) const int MAX_DEPTH = 20;
 layout(local_size_x_id = 1, local_size_y_id = 2) in;

@@ -3,7 +3,7 @@
 // Rays in, hits out: the course kernel's search for the nearest primitive, by its own listings.
 layout(local_size_x = 64) in;
 
-#include "interface.glsl"
+#include "course/interface.glsl"
 
 struct ProbeRay {
     vec4 origin;

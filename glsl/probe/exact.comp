@@ -4,7 +4,7 @@
 // fma and tests for NaN and infinity make of them.
 layout(local_size_x = 64) in;
 
-#include "whitted/real.glsl"
+#include "common/real.glsl"
 
 struct Pair {
     Real4 a;

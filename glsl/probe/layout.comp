@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Writes every field of every record it is given, one float a component, in the order of the declarations: the test
 // gives each its own value and so proves that host and kernel mean the same bytes.
-#include "interface.glsl"
+#include "course/interface.glsl"
 layout(local_size_x = 1) in;
 #include "course/bindings.glsl"
 layout(binding = 5, std430) buffer Echo { float echo[]; };

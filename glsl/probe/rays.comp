@@ -5,7 +5,10 @@
 // tried on one solid alone.
 layout(local_size_x = 64) in;
 
-#include "whitted/solids.glsl"
+#include "records/records.glsl"
+#include "solids/solids.glsl"
+#include "search/traversal.glsl"
+#include "search/proxies.glsl"
 
 // The key of a solid's proxy, as if it were the only one.
 uint key_alone(uint slot, TraversalRay traversal) {

@@ -4,7 +4,7 @@ use super::{Limits, PlanError, Precision, Structure};
 use crate::scene::SolidKind;
 
 /// Rows of four numbers in the kernel's records: of a solid of each kind, of its proxy, of a box around solids, a
-/// material, the view and a light (`glsl/whitted/scene.glsl`).
+/// material, the view and a light (`glsl/records/scene.glsl`).
 const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
 const CLOSE_UP_ROWS: [usize; 4] = [3, 7, 5, 4];
 pub(crate) const MATERIAL_ROWS: usize = 2;

@@ -13,7 +13,7 @@ use crate::gpu::{
 };
 use crate::scene::{COURSE_PRIMITIVE_LIMIT, Light, Scene};
 
-/// `MAX_PRIMITIVES` of `glsl/interface.glsl`: the course work's limit, over all kinds together.
+/// `MAX_PRIMITIVES` of `glsl/course/interface.glsl`: the course work's limit, over all kinds together.
 pub const MAX_PRIMITIVES: usize = COURSE_PRIMITIVE_LIMIT;
 
 /// Bindings of `glsl/course/bindings.glsl`: the picture, then spheres, boxes, cylinders and cones.

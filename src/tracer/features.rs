@@ -27,7 +27,7 @@ impl Features {
         }
     }
 
-    /// The specialization constants of `glsl/whitted/real.glsl`, `scene.glsl`, `camera.glsl` and `whitted.comp`.
+    /// The specialization constants of `glsl/common/real.glsl`, `scene.glsl`, `camera.glsl` and `whitted.comp`.
     ///
     /// # Errors
     /// The device fails when its arithmetic is tried.

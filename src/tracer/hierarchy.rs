@@ -1,4 +1,4 @@
-//! In which order the solids of a kind lie, and the boxes over them: what `glsl/whitted/hierarchy.glsl` goes down.
+//! In which order the solids of a kind lie, and the boxes over them: what `glsl/search/hierarchy.glsl` goes down.
 //!
 //! Level 0 are the solids; box `j` of level `h` is around those from `j·8ʰ` on, 8ʰ of them or the rest. So the order is
 //! the whole structure, and a solid that changes changes one box of each level.

@@ -1,4 +1,4 @@
-//! What the search tries before the kernel solves anything: the proxies of `glsl/whitted/proxies.glsl` and the boxes of
+//! What the search tries before the kernel solves anything: the proxies of `glsl/search/proxies.glsl` and the boxes of
 //! `hierarchy.glsl`, rounded to the safe side. Scene space.
 
 use glam::DVec3;
@@ -12,12 +12,12 @@ use crate::scene::{SceneSpace, Solid, SolidKind, world_from_box};
 /// A row of the texel buffer.
 type Row = [f32; 4];
 
-/// `place_error` of `glsl/whitted/traversal.glsl`.
+/// `place_error` of `glsl/search/traversal.glsl`.
 fn place_error(frame: SceneSpace) -> f32 {
     8.0 * f32::EPSILON * frame.reach
 }
 
-/// `DISTANCE_ERROR` of `glsl/whitted/proxies.glsl`.
+/// `DISTANCE_ERROR` of `glsl/search/proxies.glsl`.
 const DISTANCE_ERROR: f64 = 8.0 * f32::EPSILON as f64;
 
 /// A size that no ray finds a way through.

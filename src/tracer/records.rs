@@ -1,4 +1,4 @@
-//! `repr(C)` mirrors of `glsl/interface.glsl`, filled from a scene. Vulkan's layout rules put a `vec3` on 16 bytes and
+//! `repr(C)` mirrors of `glsl/course/interface.glsl`, filled from a scene. Vulkan's layout rules put a `vec3` on 16 bytes and
 //! let the next scalar follow it at 12; the `_pad` fields are the gaps. tests/kernels/record_layout.rs proves both
 //! sides alike.
 

@@ -48,7 +48,7 @@ impl Precision {
     }
 }
 
-/// Bindings 1 to 7 of `glsl/whitted/scene.glsl`.
+/// Bindings 1 to 7 of `glsl/records/scene.glsl`.
 pub fn scene_bindings(precision: Precision) -> [BindingKind; 7] {
     let mut bindings = [BindingKind::Texels(precision.texel()); 7];
     bindings[1] = BindingKind::Texels(Texel::Floats);

@@ -1,4 +1,4 @@
-//! The records of `glsl/whitted/scene.glsl`, filled from a scene.
+//! The records of `glsl/records/scene.glsl`, filled from a scene.
 //!
 //! Every record is rows of four reals, so they are computed in `f64` here and, for the `f32` kernel, narrowed number by
 //! number. What an `f32` cannot hold and the kernel needs (an axis, the middle between two ends) is told as a number

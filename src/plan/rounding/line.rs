@@ -1,4 +1,4 @@
-//! Lines and intervals of the `f32` kernel (`glsl/whitted/ray.glsl`, `axis.glsl`), rounded where it rounds.
+//! Lines and intervals of the `f32` kernel (`glsl/solids/ray.glsl`, `axis.glsl`), rounded where it rounds.
 //!
 //! What the kernel keeps as a value and its error, 48 bits in all, is one `f64` here.
 

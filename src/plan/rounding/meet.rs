@@ -1,4 +1,4 @@
-//! Where the `f32` kernel's rays meet its solids (`glsl/whitted/meet.glsl`, `sphere.glsl` and so on).
+//! Where the `f32` kernel's rays meet its solids (`glsl/solids/meet.glsl`, `sphere.glsl` and so on).
 
 use glam::Vec3;
 

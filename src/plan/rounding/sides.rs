@@ -1,5 +1,5 @@
 //! Where a line is inside a cylinder's or a cone's side, or a round surface of a close-up, as the `f32` kernel computes
-//! it (`glsl/whitted/cylinder.glsl`, `cone.glsl`, `sphere.glsl`).
+//! it (`glsl/solids/cylinder.glsl`, `cone.glsl`, `sphere.glsl`).
 
 use glam::{DVec3, Vec3};
 

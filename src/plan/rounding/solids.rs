@@ -1,4 +1,4 @@
-//! The four solids in the numbers of the `f32` kernel (`glsl/whitted/scene.glsl`), and how deep a point is in them.
+//! The four solids in the numbers of the `f32` kernel (`glsl/records/scene.glsl`), and how deep a point is in them.
 
 use glam::{DMat3, DVec3, Vec3};
 

@@ -180,7 +180,7 @@ fn primary_direction(camera: &Camera, [column, row]: [u32; 2], [width, height]: 
     left.as_vec3() * to_left + ahead.cross(left).as_vec3() * upward + ahead.as_vec3()
 }
 
-/// `are_coplanar` and `is_nearer` of `glsl/whitted/nearest.glsl`.
+/// `are_coplanar` and `is_nearer` of `glsl/solids/nearest.glsl`.
 fn is_nearer((hit, index): HitOf, (nearest, nearest_index): HitOf, ray: &Ray) -> bool {
     let u = f32::EPSILON / 2.0;
     let error = u * (hit.t + nearest.t + 4.0 * (hit.size + nearest.size));

@@ -1,24 +1,46 @@
-// The search through the solids of a kind, included once for each: SEARCH is its name, KEY_OF and TIGHTEN what looks at
-// a proxy of PROXY_ROWS rows, KIND the kind and LEVELS the number of levels over the solids. Where IS_DEAR, KEY_OF
-// takes so long that a packet first tries BOUNDING_SPHERE_OF, a bounding sphere around the solid.
+// The search through the solids of a kind, included once for each: KIND is the kind, OF_KIND makes a function's name for
+// it, LEVELS is the number of levels over the solids, PROXY_ROWS how many rows a proxy takes. Where IS_DEAR, a proxy's
+// key takes so long to find that a packet first tries a bounding sphere around the solid.
 //
 // The solids lie in such an order that each eight that begin with a multiple of eight are near each other, and so are
 // each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what
 // is in it. src/tracer/hierarchy.rs makes the order, and the boxes.
 
+#if KIND == SPHERES
+#define OF_KIND(function) function##_sphere
+#define LEVELS SPHERE_LEVELS
+#define PROXY_ROWS 1u
+#define IS_DEAR 0
+#elif KIND == BOXES
+#define OF_KIND(function) function##_box
+#define LEVELS BOX_LEVELS
+#define PROXY_ROWS 2u
+#define IS_DEAR 0
+#elif KIND == CYLINDERS
+#define OF_KIND(function) function##_cylinder
+#define LEVELS CYLINDER_LEVELS
+#define PROXY_ROWS 2u
+#define IS_DEAR 1
+#elif KIND == CONES
+#define OF_KIND(function) function##_cone
+#define LEVELS CONE_LEVELS
+#define PROXY_ROWS 2u
+#define IS_DEAR 1
+#endif
+
 #if IS_DEAR && PACKETS
 #define SOLIDS_AHEAD(own, traversal, found) \
-    bounding_spheres_ahead(BOUNDING_SPHERE_OF(own.a, own.b), traversal, found.limit > HIDDEN)
+    bounding_spheres_ahead(OF_KIND(bounding_sphere_of)(own.a, own.b), traversal, found.limit > HIDDEN)
 #else
 #define SOLIDS_AHEAD(own, traversal, found) 0xFFu
 #endif
 
 // A group of the kind, and where the ray enters the box around it; `left`: which of its solids some ray may meet. A
 // loop's body may have come here for nothing, with none of them.
-void TRY_EIGHT(uint group, OwnOutline own, uint left, int entry, TraversalRay traversal, inout Found found) {
+void OF_KIND(try_eight)(uint group, OwnOutline own, uint left, int entry, TraversalRay traversal, inout Found found) {
 #define A_OF_EIGHT(k) ROW_OF_EIGHT(own.a, proxies, own.first, PROXY_ROWS, k)
 #define B_OF_EIGHT(k) (PROXY_ROWS == 1u ? vec4(0.0) : ROW_OF_EIGHT(own.b, proxies, own.first + 1u, PROXY_ROWS, k))
-#define TRY_ONE(k) take(KEY_OF(A_OF_EIGHT(k), B_OF_EIGHT(k), traversal, entry, k), k, eight);
+#define TRY_ONE(k) take(OF_KIND(key_of)(A_OF_EIGHT(k), B_OF_EIGHT(k), traversal, entry, k), k, eight);
     Group eight = group_of(first_slots()[KIND] / 8u + group, left != 0u, traversal);
 #if IS_DEAR && PACKETS
     for (;;) {
@@ -33,7 +55,7 @@ void TRY_EIGHT(uint group, OwnOutline own, uint left, int entry, TraversalRay tr
 #endif
     uint place = (eight.key + eight.first_key) & 7u;
     // Among few that takes longer than it saves.
-    if (LEVELS > 1u) TIGHTEN(A_OF_EIGHT(place), B_OF_EIGHT(place), eight.key < eight.end, traversal, found);
+    if (LEVELS > 1u) OF_KIND(tighten_by)(A_OF_EIGHT(place), B_OF_EIGHT(place), eight.key < eight.end, traversal, found);
     take(eight, found);
 #undef A_OF_EIGHT
 #undef B_OF_EIGHT
@@ -41,7 +63,7 @@ void TRY_EIGHT(uint group, OwnOutline own, uint left, int entry, TraversalRay tr
 }
 
 // Up to sixteen groups from `first` on, a bit each, and where the ray enters the boxes around them.
-void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries high, TraversalRay traversal,
+void OF_KIND(try_groups)(uint first, uint left, bool are_backwards, Entries low, Entries high, TraversalRay traversal,
                 inout Found found) {
     for (;;) {
         iterations++;
@@ -63,7 +85,7 @@ void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries 
 #endif
         }
         int entry = LEVELS == 1u && place >= 8u ? entry_of(high, place) : entry_of(low, place);
-        TRY_EIGHT(first + place, own, solids, LEVELS == 0u ? 0 : entry, traversal, found);
+        OF_KIND(try_eight)(first + place, own, solids, LEVELS == 0u ? 0 : entry, traversal, found);
         if (LEVELS > 0u) {
             uint ahead = boxes_ahead(low, end_of(found));
             if (LEVELS == 1u) ahead |= boxes_ahead(high, end_of(found)) << 8u;
@@ -76,7 +98,7 @@ void TRY_GROUPS(uint first, uint left, bool are_backwards, Entries low, Entries 
 // A level that is alone is entered whole. Down several, a ray or a packet of eight goes group by group: `left` keeps,
 // from bit 8 * (h - 2) on, which boxes of level h, in their order, are still to be gone into. Those of level 1 are gone
 // into at once. What a level holds backwards has its bit in `backwards`.
-void SEARCH(TraversalRay traversal, vec3 heading, bool is_searching, inout Found found) {
+void OF_KIND(search)(TraversalRay traversal, vec3 heading, bool is_searching, inout Found found) {
     uint count = frame.counts[KIND];
     if (!is_searching) found.limit = HIDDEN;
     if (LEVELS == 0u) {
@@ -84,7 +106,7 @@ void SEARCH(TraversalRay traversal, vec3 heading, bool is_searching, inout Found
         uint first = 0u;
         for (;;) {
             iterations++;
-            TRY_GROUPS(first, (1u << min(eighths(count) - first, 16u)) - 1u, false, none, none, traversal, found);
+            OF_KIND(try_groups)(first, (1u << min(eighths(count) - first, 16u)) - 1u, false, none, none, traversal, found);
             first += 16u;
             if (first >= eighths(count)) break;
         }
@@ -102,7 +124,7 @@ void SEARCH(TraversalRay traversal, vec3 heading, bool is_searching, inout Found
         bool are_backwards = heading[order_of_boxes(own_low, first)] < 0.0;
         uint left = (1u << eighths(count)) - 1u;
         left &= bits_of_packet(boxes_ahead(low, end_of(found)) | boxes_ahead(high, end_of(found)) << 8u);
-        TRY_GROUPS(0u, left, are_backwards, low, high, traversal, found);
+        OF_KIND(try_groups)(0u, left, are_backwards, low, high, traversal, found);
     } else {
         // Where the boxes of each level begin.
         uint rows[7];
@@ -152,7 +174,7 @@ void SEARCH(TraversalRay traversal, vec3 heading, bool is_searching, inout Found
                 if (leaves != 0u || (left.x | left.y) == 0u) break;
             }
 
-            TRY_GROUPS(8u * path, leaves, are_leaves_backwards, entries, entries, traversal, found);
+            OF_KIND(try_groups)(8u * path, leaves, are_leaves_backwards, entries, entries, traversal, found);
             bool ends = (left.x | left.y) == 0u || iterations >= MAX_ITERATIONS;
             if (ends || !any_of_packet(found.limit > HIDDEN)) break;
         }
@@ -160,3 +182,7 @@ void SEARCH(TraversalRay traversal, vec3 heading, bool is_searching, inout Found
 }
 
 #undef SOLIDS_AHEAD
+#undef OF_KIND
+#undef LEVELS
+#undef PROXY_ROWS
+#undef IS_DEAR
