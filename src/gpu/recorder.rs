@@ -126,7 +126,7 @@ impl<'h> Recorder<'h> {
     /// Runs `groups` workgroups of `pipeline` on what `set` binds.
     ///
     /// # Panics
-    /// See [`Recorder::dispatch_parts`].
+    /// The set was made for a pipeline that is no sibling, or the push constants are not as long as the pipeline's.
     pub fn dispatch(
         &mut self,
         pipeline: &Arc<ComputePipeline>,

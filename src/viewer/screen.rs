@@ -33,7 +33,7 @@ impl From<GpuError> for ScreenError {
 }
 
 impl ScreenError {
-    /// Whether the device is gone, which a new [`Screen`] may mend.
+    /// Whether the device is gone, which opening one anew may mend.
     pub fn is_device_lost(&self) -> bool {
         match self {
             Self::Tracer(TracerError::Gpu(error)) => error.is_device_lost(),
