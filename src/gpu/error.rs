@@ -77,7 +77,7 @@ pub enum GpuError {
         source: gpu_allocator::AllocationError,
     },
 
-    /// The host wanted to see into memory that only the device sees, as that of [`BufferKind::Pixels`](super::BufferKind::Pixels).
+    /// The host wanted to see into memory that is the device's alone, as of [pixels](super::BufferKind::Pixels).
     #[error("{object} cannot be mapped for reading or writing by the host")]
     NotMapped {
         /// Its kind and name, as in `buffer 'pixels'`.
