@@ -31,18 +31,52 @@ pub enum FileFormat {
 /// Why a frame could not be made, read or written; each message is one line that names the operation and the object.
 #[derive(Debug, Error)]
 pub enum FrameError {
+    /// A side is 0 or larger than [`Frame::MAX_SIDE`].
     #[error("a frame of {width}x{height} pixels is impossible: each side must be 1 to {max}", max = Frame::MAX_SIDE)]
-    Size { width: u64, height: u64 },
+    Size {
+        /// Pixels.
+        width: u64,
+        /// Pixels.
+        height: u64,
+    },
+    /// There is no memory for the pixels, or for what a file is decoded into.
     #[error("could not allocate a frame of {width}x{height} pixels ({bytes} B)")]
-    Memory { width: u32, height: u32, bytes: u64 },
+    Memory {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+        /// How much was asked for.
+        bytes: u64,
+    },
+    /// The extension is no [`FileFormat`]'s.
     #[error("unknown image format: {path:?} must end in .png or .exr")]
-    UnknownFormat { path: PathBuf },
+    UnknownFormat {
+        /// As it was given.
+        path: PathBuf,
+    },
+    /// The file cannot be opened, or is no picture of the format that its extension names.
     #[error("could not read image {path:?}: {reason}")]
-    Read { path: PathBuf, reason: String },
+    Read {
+        /// As it was given.
+        path: PathBuf,
+        /// The system's or the decoder's own words.
+        reason: String,
+    },
+    /// The file cannot be written whole; an older one of that name is as it was.
     #[error("could not write image {path:?}: {reason}")]
-    Write { path: PathBuf, reason: String },
+    Write {
+        /// As it was given.
+        path: PathBuf,
+        /// The system's or the encoder's own words.
+        reason: String,
+    },
+    /// [`Frame::encode`] failed, which writes to memory alone.
     #[error("could not encode a frame: {reason}")]
-    Encode { reason: String },
+    Encode {
+        /// The encoder's own words.
+        reason: String,
+    },
 }
 
 /// Why the contents of a file are no frame.

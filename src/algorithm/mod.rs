@@ -15,10 +15,14 @@ pub use precision::Precision;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Algorithm {
+    /// The course work's own kernel, its quirks included, in `f32`: not the accurate model.
     Course,
+    /// The accurate model by textbook quadratics in `f32`.
     Plain,
+    /// The accurate model with exact sums where rounding would show.
     #[default]
     Whitted,
+    /// The accurate model in `f64` on the CPU, without Vulkan.
     Reference,
 }
 
@@ -29,13 +33,16 @@ pub enum Kernel {
     Course,
     /// `f32`.
     Plain,
+    /// `f32` or `f64`, of which not every device has the latter.
     Whitted(Precision),
 }
 
 /// A row of [`ALGORITHMS`].
 #[derive(Debug)]
 pub struct Description {
+    /// The rows are in the order of its variants.
     pub algorithm: Algorithm,
+    /// On the command line, in files, in JSON and in messages.
     pub name: &'static str,
     /// For `--help`.
     pub about: &'static str,
@@ -114,6 +121,7 @@ pub static ALGORITHMS: [Description; 4] = [
 ];
 
 impl Description {
+    /// Whether Vulkan runs it, rather than this program on the CPU.
     pub fn is_on_device(&self) -> bool {
         !self.kernels.is_empty()
     }
@@ -125,11 +133,13 @@ impl Description {
 }
 
 impl Algorithm {
+    /// Its row of [`ALGORITHMS`].
     pub fn description(self) -> &'static Description {
         // invariant: the rows are in the order of the names (`every_algorithm_has_its_row`).
         &ALGORITHMS[self as usize]
     }
 
+    /// On the command line, in files, in JSON and in messages.
     pub fn name(self) -> &'static str {
         self.description().name
     }
@@ -139,10 +149,12 @@ impl Algorithm {
         self.description().kernels.iter().copied().find(|kernel| kernel.precision() == precision)
     }
 
+    /// Those that a Vulkan device runs, in the order of [`ALGORITHMS`].
     pub fn on_device() -> impl Iterator<Item = Self> {
         ALGORITHMS.iter().filter(|description| description.is_on_device()).map(|description| description.algorithm)
     }
 
+    /// Those that table 4.1 of the course work is measured with, in the order of [`ALGORITHMS`].
     pub fn in_fps_table() -> impl Iterator<Item = Self> {
         ALGORITHMS.iter().filter(|description| description.is_in_fps_table).map(|description| description.algorithm)
     }

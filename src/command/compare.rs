@@ -27,10 +27,20 @@ pub struct CompareArgs {
 /// Why a comparison failed, in one line.
 #[derive(Debug, Error)]
 pub enum CompareError {
+    /// A picture or the mask cannot be read.
     #[error(transparent)]
     Frame(#[from] FrameError),
+    /// The pictures do not go together, or the mask not with them.
     #[error("could not compare {a:?} with {b:?}: {reason}")]
-    Comparison { a: PathBuf, b: PathBuf, reason: ComparisonError },
+    Comparison {
+        /// As it was given.
+        a: PathBuf,
+        /// As it was given.
+        b: PathBuf,
+        /// The sizes, or a mask that selects nothing.
+        reason: ComparisonError,
+    },
+    /// Standard output takes no more.
     #[error("could not write the comparison")]
     Output(#[from] io::Error),
 }

@@ -34,6 +34,7 @@ pub fn handle() -> Result<(), ctrlc::Error> {
 pub struct Listener(());
 
 impl Listener {
+    /// For work that asks [`Listener::stop_requested`] now and then.
     pub fn start() -> Self {
         LISTENED_TO.store(true, Ordering::Relaxed);
         Self(())
@@ -45,6 +46,7 @@ impl Listener {
         Self::start()
     }
 
+    /// Whether Ctrl-C has come while this or an earlier one lived.
     pub fn stop_requested(&self) -> bool {
         REQUESTED.load(Ordering::Relaxed)
     }

@@ -1,20 +1,20 @@
 //! One file a subcommand, each a few lines over the library.
 
 pub mod compare;
-pub mod convert;
-pub mod devices;
-pub mod fps;
-pub mod gallery;
+mod convert;
+mod devices;
+mod fps;
+mod gallery;
 pub mod interrupt;
-pub mod options;
-pub mod plan;
-pub mod render;
-pub mod report;
-pub mod stability;
+mod options;
+mod plan;
+mod render;
+mod report;
+mod stability;
 mod streams;
-pub mod trade;
-pub mod validate;
-pub mod view;
+mod trade;
+mod validate;
+mod view;
 
 use std::fs;
 use std::io::{self, IsTerminal, Write};
@@ -37,6 +37,7 @@ use crate::settings::SettingsError;
 use crate::tracer::TracerError;
 use crate::viewer::ViewerError;
 
+/// What the program is asked to do. A variant has no doc comment: it would take the place of its arguments' help.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     View(view::ViewArgs),
@@ -54,6 +55,7 @@ pub enum Command {
 }
 
 impl Command {
+    /// Does it to its end; [`exit_code`] tells what a failure ends the program with.
     pub fn run(&self) -> anyhow::Result<()> {
         match self {
             Self::View(args) => view::run(args),
@@ -89,6 +91,7 @@ pub enum Checks {
     GpuAssisted,
     /// What is allowed and unwise
     BestPractices,
+    /// All of these
     All,
 }
 
@@ -135,16 +138,16 @@ pub struct MeasuringArgs {
     #[arg(long)]
     pub json: bool,
     #[command(flatten)]
-    pub device: DeviceArgs,
+    pub(crate) device: DeviceArgs,
     #[command(flatten)]
-    pub validation: ValidationArgs,
+    pub(crate) validation: ValidationArgs,
 }
 
 /// The validation layers had something to say.
 #[derive(Debug, thiserror::Error)]
 #[error("validation: {count} message(s)")]
 pub struct ValidationFailed {
-    pub count: usize,
+    count: usize,
 }
 
 /// A ready scene by its name, else a scene from a file.

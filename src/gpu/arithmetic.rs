@@ -15,7 +15,9 @@ use super::shaders;
 /// Of a kernel's numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FloatWidth {
+    /// 24 bits of significand.
     F32,
+    /// 53 bits of significand; for devices with [`DeviceDescription::float64`](super::DeviceDescription::float64).
     F64,
 }
 
@@ -27,11 +29,13 @@ pub struct Arithmetic {
     pub exact_sums: bool,
     /// Whether a fma is rounded once: then it gives a product's error in one step.
     pub fused_fma: bool,
-    /// Whether NaN and infinities come about, stay and are recognised.
+    /// Whether NaNs come about, stay and are recognised.
     pub keeps_nan: bool,
+    /// The same of infinities.
     pub keeps_infinity: bool,
     /// Largest error met, in units in the last place of the result; correctly rounded ones have at most 0.5.
     pub division_error_ulp: f64,
+    /// In the same units.
     pub square_root_error_ulp: f64,
     /// Whether kernels have been promised rounding to nearest by the driver.
     pub round_to_nearest_declared: bool,

@@ -31,6 +31,7 @@ pub enum Check {
 }
 
 impl Check {
+    /// As messages and reports have it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Core => "core",

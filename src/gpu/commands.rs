@@ -36,6 +36,7 @@ pub(crate) struct Semaphores {
 }
 
 impl Commands {
+    /// `name` is what debuggers show and failures tell.
     pub fn new(device: &Arc<Device>, name: &str) -> Result<Self, GpuError> {
         let failed = |what| GpuError::call(move || format!("create the {what} '{name}'"));
         // Null handles until made; `Drop` ignores them, so a failure on the way leaks nothing.

@@ -21,11 +21,15 @@ impl ResourceId {
 /// How a command uses a resource.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Use {
+    /// Read by kernels.
     ShaderRead,
     /// Reads, writes or both.
     ShaderWrite,
+    /// Read by a copy, or by showing it in a window.
     CopySource,
+    /// Written by a copy, an update or a fill.
     CopyTarget,
+    /// Read by the host, once the submission has ended.
     HostRead,
 }
 

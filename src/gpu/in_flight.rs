@@ -24,6 +24,7 @@ impl InFlight {
     /// Submissions recorded ahead of the device.
     pub const COUNT: usize = 2;
 
+    /// `name` is what debuggers show and failures tell.
     pub fn new(device: &Arc<Device>, name: &str) -> Result<Self, GpuError> {
         let ring = [Commands::new(device, name)?, Commands::new(device, name)?];
         Ok(Self { ring, next: 0, hazards: Hazards::default() })
@@ -41,6 +42,7 @@ impl InFlight {
         std::array::from_fn(|offset| (self.next + offset) % Self::COUNT)
     }
 
+    /// Waits until nothing that was submitted from here is running.
     pub fn wait_for_all(&mut self) -> Result<(), GpuError> {
         self.ring.iter_mut().try_for_each(Commands::wait)
     }

@@ -15,6 +15,7 @@ use super::instance::version_text;
 /// warning.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Validation {
+    /// Without the layer; only the recorder's own book of hazards is kept.
     #[default]
     Off,
     /// Calls against the specification, and synchronization.
@@ -28,6 +29,7 @@ pub enum Validation {
 }
 
 impl Validation {
+    /// As reports and messages have it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Off => "off",
@@ -86,8 +88,10 @@ const CORE_CHECKS: Switch = Switch {
 /// The extension by which the layer is told what to check.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum SetUpBy {
+    /// Takes single settings as well as lists of checks; preferred where the layer offers both.
     #[serde(rename = "VK_EXT_layer_settings")]
     LayerSettings,
+    /// Takes nothing but lists of checks.
     #[serde(rename = "VK_EXT_validation_features")]
     ValidationFeatures,
 }
@@ -100,6 +104,7 @@ impl SetUpBy {
         }
     }
 
+    /// The extension's, as Vulkan writes it.
     pub fn name(self) -> &'static str {
         match self {
             Self::LayerSettings => "VK_EXT_layer_settings",
@@ -111,11 +116,13 @@ impl SetUpBy {
 /// The validation layer as it is installed.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Layer {
+    /// As the loader lists it, `VK_LAYER_KHRONOS_validation`.
     pub name: String,
     /// Of the Vulkan specification that it checks against.
     pub version: String,
     /// Its own number.
     pub implementation: u32,
+    /// The first of both extensions that the layer offers.
     pub set_up_by: SetUpBy,
     /// `version` as Vulkan encodes it.
     #[serde(skip)]

@@ -41,6 +41,7 @@ pub enum Texel {
 }
 
 impl Texel {
+    /// Of one texel, whichever it holds.
     pub const BYTES: u64 = 16;
 
     /// Every Vulkan device must offer both for texel buffers.
@@ -134,6 +135,7 @@ impl Buffer {
         Ok(buffer)
     }
 
+    /// Bytes that were asked for, which may be none.
     pub fn size(&self) -> u64 {
         self.size
     }
@@ -187,6 +189,7 @@ impl StorageImage {
     /// Every Vulkan device must offer this format for storage images and as the source of blits.
     const FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
+    /// `name` is what debuggers show and failures tell; the sides are in pixels, of which none is set yet.
     pub fn new(device: &Arc<Device>, name: &str, width: u32, height: u32) -> Result<Self, GpuError> {
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
@@ -242,10 +245,12 @@ impl StorageImage {
         self.extent
     }
 
+    /// Pixels.
     pub fn width(&self) -> u32 {
         self.extent.width
     }
 
+    /// Pixels.
     pub fn height(&self) -> u32 {
         self.extent.height
     }

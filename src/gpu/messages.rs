@@ -12,11 +12,14 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
+    /// Anything less than an error, such as advice of best practices.
     Warning,
+    /// Against the specification, or a hazard that this program saw itself.
     Error,
 }
 
 impl Severity {
+    /// As JSON and printed lines have it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Warning => "warning",
@@ -28,9 +31,11 @@ impl Severity {
 /// One message of a validation layer, or of this program's own hazard check.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Message {
+    /// As the layer marked it, or an error for a hazard.
     pub severity: Severity,
     /// The layer's id, e.g. `VUID-vkCmdDispatch-None-02699`.
     pub id: String,
+    /// The layer's or the recorder's sentence, which names the objects concerned.
     pub text: String,
 }
 
@@ -41,6 +46,7 @@ pub struct Message {
 pub struct Remark {
     /// The whole id.
     pub id: &'static str,
+    /// What a message must be marked with.
     pub severity: Severity,
     /// What its text has in it.
     pub text_part: &'static str,
@@ -145,6 +151,7 @@ impl Book {
 }
 
 impl Messages {
+    /// Enters a message among the faults, or counts it where it is a known [`Remark`] of the layer in use.
     pub fn push(&self, message: Message) {
         self.book().enter(message);
     }

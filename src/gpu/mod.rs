@@ -46,7 +46,8 @@ pub use memory::{Buffer, BufferKind, PIXEL_BYTES, StorageImage, Texel};
 pub use messages::{Message, Messages, Remark, Severity};
 pub use physical::{DeviceDescription, DeviceKind, choose};
 pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
-pub use recorder::{Dispatch, Recorder};
+pub(crate) use recorder::Dispatch;
+pub use recorder::Recorder;
 #[cfg(debug_assertions)]
 pub(crate) use shader_compiler::{compile, variants};
 pub use shaders::{Builds, Shader};
@@ -55,7 +56,7 @@ pub(crate) use swapchain::Swapchain;
 pub(crate) use swapchain_choices::Fit;
 pub use timer::Timer;
 pub use tried::{TriedDevice, tried_devices};
-pub use widget_memory::WidgetMemory;
+pub(crate) use widget_memory::WidgetMemory;
 
 /// Every device of the machine, usable or not, in the loader's order.
 pub fn devices() -> Result<Vec<DeviceDescription>, GpuError> {
@@ -92,6 +93,7 @@ impl Device {
         &self.instance
     }
 
+    /// As the device was listed before it was opened.
     pub fn description(&self) -> &DeviceDescription {
         &self.description
     }

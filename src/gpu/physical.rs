@@ -15,10 +15,15 @@ use super::surface::Surface;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum DeviceKind {
+    /// A GPU apart from the host, usually with memory of its own.
     Discrete,
+    /// A GPU that is a part of the host.
     Integrated,
+    /// A GPU of a virtual machine.
     Virtual,
+    /// The host's own processor, by a driver such as Mesa's lavapipe.
     Cpu,
+    /// Any that Vulkan has no kind for.
     Other,
 }
 
@@ -33,6 +38,7 @@ impl DeviceKind {
         }
     }
 
+    /// As JSON and lists of devices have it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Discrete => "discrete",
@@ -49,10 +55,13 @@ impl DeviceKind {
 pub struct DeviceDescription {
     /// Place in the loader's list; what `--device INDEX` takes.
     pub index: usize,
+    /// As the driver gives it; two devices may share one.
     pub name: String,
+    /// As the driver classes it.
     pub kind: DeviceKind,
     /// Driver name and version text, as the driver gives them.
     pub driver: String,
+    /// Vulkan's version that the device offers, as `1.3.239`.
     pub api_version: String,
     /// Whether GPU time can be measured.
     pub timestamps: bool,

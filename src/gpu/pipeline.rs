@@ -15,6 +15,7 @@ use super::shaders::Shader;
 /// How a kernel uses one binding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum BindingKind {
+    /// A uniform block.
     Uniform,
     /// A storage buffer that is read, written or both.
     Storage,
@@ -50,9 +51,11 @@ impl BindingKind {
 
 /// What a pipeline is made from.
 pub struct PipelineDescription<'a> {
+    /// The kernel, whose entry point is `main`.
     pub shader: &'a Shader,
     /// Binding `i` of set 0.
     pub bindings: &'a [BindingKind],
+    /// None is 0.
     pub push_constant_bytes: u32,
     /// Specialization constant `i`; every one is 4 bytes wide.
     pub constants: &'a [u32],
@@ -67,6 +70,7 @@ pub struct ComputePipeline {
 }
 
 impl ComputePipeline {
+    /// Compiles the kernel, or finds it in the device's pipeline cache, which is saved.
     pub fn new(device: &Arc<Device>, description: &PipelineDescription) -> Result<Arc<Self>, GpuError> {
         let layout = Layout::new(device, description)?;
         Self::with_layout(layout, description)
@@ -212,7 +216,9 @@ fn compile(
 /// A resource that can be bound.
 #[derive(Clone)]
 pub enum Resource {
+    /// Of any [`BufferKind`].
     Buffer(Arc<Buffer>),
+    /// For [`BindingKind::Picture`] and [`BindingKind::PictureRead`].
     Image(Arc<StorageImage>),
 }
 

@@ -126,7 +126,7 @@ impl<'h> Recorder<'h> {
     /// Runs `groups` workgroups of `pipeline` on what `set` binds.
     ///
     /// # Panics
-    /// See [`Recorder::dispatch_parts`].
+    /// The set was made for a pipeline that is no sibling, or the push constants are not as long as the pipeline's.
     pub fn dispatch(
         &mut self,
         pipeline: &Arc<ComputePipeline>,
@@ -142,7 +142,7 @@ impl<'h> Recorder<'h> {
     ///
     /// # Panics
     /// The set was made for a pipeline that is no sibling, or the push constants are not as long as theirs.
-    pub fn dispatch_parts(&mut self, set: &Arc<BindingSet>, push_constants: &[u8], parts: &[Dispatch]) {
+    pub(crate) fn dispatch_parts(&mut self, set: &Arc<BindingSet>, push_constants: &[u8], parts: &[Dispatch]) {
         let Some(Dispatch { pipeline: first, .. }) = parts.first() else { return };
         for Dispatch { pipeline, .. } in parts {
             assert!(
@@ -300,6 +300,7 @@ impl<'h> Recorder<'h> {
         }
     }
 
+    /// Ends what [`Recorder::start`] began; [`Timer::elapsed_ns`] tells the time once the submission has ended.
     pub fn stop(&mut self, timer: &Arc<Timer>) {
         // SAFETY: as for `start`.
         unsafe {

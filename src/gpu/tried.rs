@@ -7,10 +7,12 @@ use super::{Arithmetic, Device, DeviceDescription, FloatWidth, GpuError, Validat
 /// A device with what its arithmetic was found to be.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TriedDevice {
+    /// Also of a device that cannot be used.
     #[serde(flatten)]
     pub description: DeviceDescription,
     /// `None` where the device cannot be used, or has no such numbers.
     pub f32_arithmetic: Option<Arithmetic>,
+    /// As of `f32_arithmetic`.
     pub f64_arithmetic: Option<Arithmetic>,
 }
 

@@ -55,8 +55,11 @@ impl Approximations {
 /// The largest change of a linear channel by each cut.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
 pub struct Bounds {
+    /// By leaving out all highlights.
     pub highlights: f64,
+    /// By ending paths at [`Approximations::min_throughput`].
     pub generations: f64,
+    /// By tracing no shadow rays below [`Approximations::min_shadowed`].
     pub shadows: f64,
 }
 

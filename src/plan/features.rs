@@ -14,15 +14,19 @@ pub struct Features {
     pub kinds: [bool; 4],
     /// Of boxes over the solids of each kind.
     pub levels: [u32; 4],
+    /// No box is rotated against the world's axes.
     pub are_boxes_axis_aligned: bool,
     /// The records are those of a close-up.
     pub is_close_up: bool,
+    /// Lights leave highlights on specular surfaces.
     pub highlights: bool,
     /// Whose light spheres primary rays may see: none, one, or several (2).
     pub light_spheres: u32,
     /// That brighten: as many.
     pub lights: u32,
+    /// Shadow rays are traced.
     pub shadows: bool,
+    /// Rays have more than one generation.
     pub reflections: bool,
     /// Pixels have more than one sample.
     pub samples: bool,

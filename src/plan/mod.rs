@@ -72,22 +72,43 @@ impl Limits {
 /// Why there is no plan. Each is one line, and the input's fault.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanError {
+    /// What [`RenderSettings::check`] refuses.
     #[error(transparent)]
     Settings(#[from] Contradiction),
+    /// A side is 0.
     #[error("a picture of {width}x{height} pixels has none")]
-    Size { width: u32, height: u32 },
+    Size {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+    /// The algorithm of that name has no kernel.
     #[error("the {0} algorithm runs on the CPU: there is nothing to be planned for a device")]
     NotOnDevice(&'static str),
+    /// `f64` was asked for, and the device has none.
     #[error("the device cannot calculate in f64 (it lacks shaderFloat64); --precision f32 works there")]
     NoFloat64,
+    /// Some of the scene's records take more than [`Limits::max_array_bytes`].
     #[error("the scene is too large: its {array} take {bytes} B in {}, and a kernel sees {limit} B there", .precision.name())]
-    TooLarge { array: &'static str, bytes: u64, limit: u64, precision: Precision },
+    TooLarge {
+        /// What is recorded there, in the plural.
+        array: &'static str,
+        /// That the array would take.
+        bytes: u64,
+        /// Bytes.
+        limit: u64,
+        /// Of the kernel, which decides how large most records are.
+        precision: Precision,
+    },
 }
 
 /// What was decided, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decision<T> {
+    /// In the unit that the plan's field tells.
     pub choice: T,
+    /// Also a line for people.
     pub reason: Reason,
 }
 
@@ -116,6 +137,7 @@ pub struct Plan {
     pub highlights: Decision<bool>,
     /// Generations of a ray, the primary one included. Where it is 1, nothing is reflected.
     pub generations: Decision<u32>,
+    /// Also that of `kernel`.
     pub precision: Decision<Precision>,
     /// How many times the smallest length the scene is, where the picture is drawn as a close-up: in `f32`, from where
     /// solids are nearest to the camera.

@@ -15,102 +15,159 @@ pub enum Reason {
     Asked,
     /// The algorithm has no other.
     OnlyOne,
+    /// Of structures: the algorithm has no boxes around solids.
     NoHierarchy,
+    /// Of generations: nothing spares any of the scene's.
     SceneSays,
+    /// Of lights and generations: the scene has no primitives.
     NoSolids,
+    /// Of box rotation: the kernel sees no box.
     NoBoxes,
+    /// Every box stands along the world's axes.
     NoBoxRotated,
+    /// Some boxes stand askew to the world's axes.
     BoxesRotated {
+        /// All that the kernel sees.
         boxes: usize,
+        /// Those among them that stand askew.
         rotated: usize,
     },
+    /// Of lights and light spheres: the scene has no light.
     NoLights,
+    /// No primary ray meets the sphere of a light.
     LightSpheresOutOfSight {
+        /// In the scene.
         lights: usize,
     },
+    /// Primary rays may meet spheres of lights.
     LightSpheresInSight {
+        /// In the scene.
         lights: usize,
+        /// Those among them whose spheres may be met.
         seen: usize,
     },
     /// All are dark, or no surface sends anything back in their colours.
     NothingTakesLight {
+        /// In the scene.
         lights: usize,
     },
-    /// `dark` of them brighten nothing.
+    /// Some light brightens some surface.
     LightsMatter {
+        /// In the scene.
         lights: usize,
+        /// Those among them of intensity 0.
         dark: usize,
     },
+    /// Of shadows and highlights: no light brightens anything.
     NothingIsLit,
+    /// Of shadows: there is one solid, which is convex, and the camera is outside.
     LoneSolidShadowsNothing,
+    /// Of shadows: a solid may lie between a hit and a light.
     SolidsMayHide {
+        /// In the scene.
         solids: usize,
     },
+    /// Of highlights and generations: every material's specular is 0.
     NothingIsSpecular,
+    /// Of highlights: some material's specular is above 0.
     SomethingIsSpecular,
     /// All highlights together.
     HighlightsAreFaint {
+        /// The most that they add to a linear channel of a pixel.
         bound: f64,
     },
+    /// Of generations: no reflection can show anything but black.
     ReflectionsAreBlack,
+    /// Of generations: there is one solid, which shows itself and, mirrored, the background.
     LoneSolidMirrorsBackground,
-    /// `of`: generations without an error.
+    /// Of generations: paths end where they weigh too little to matter.
     PathsFade {
+        /// Weight at which a path ends; see [`Approximations`](super::Approximations::min_throughput).
         min_throughput: f32,
+        /// Generations without an error.
         of: u32,
+        /// The largest change of a linear channel by that.
         bound: f64,
     },
-    /// `tolerance`: see [`Precision::rounding_tolerance`](super::Precision::rounding_tolerance), times the brightest
-    /// source above 1; `shift_pixels`: of silhouettes that the camera sees directly.
+    /// No error is allowed, and all lengths are too near each other for rounding to show.
     RoundingIsNoCut {
+        /// [`Precision::rounding_tolerance`](super::Precision::rounding_tolerance), times the brightest source above 1.
         tolerance: f64,
+        /// The most that silhouettes move which the camera sees directly.
         shift_pixels: f64,
     },
     /// Of so many pixels that were tried no more than a stray one changes by more than `tolerance`.
     RoundingIsHarmless {
+        /// Pixels all over the picture.
         tried: usize,
+        /// Of a linear channel, as in [`Reason::RoundingIsNoCut`].
         tolerance: f64,
     },
     /// See [`Rounding::Harmful`](super::Rounding).
     RoundingSpoils {
+        /// Those that were tried and change by more than the tolerance.
         wrong: usize,
+        /// Pixels all over the picture.
         tried: usize,
+        /// Told in words by its `Display`.
         cause: Cause,
     },
     /// See [`Rounding::Unknown`](super::Rounding).
     RoundingIsUnknown {
+        /// How many times the smallest length the scene is.
         ratio: f64,
     },
+    /// An error is allowed, and it is at least the tolerance.
     RoundingIsWithinError {
+        /// As in [`Reason::RoundingIsNoCut`].
         tolerance: f64,
+        /// As in [`Reason::RoundingIsNoCut`].
         shift_pixels: f64,
     },
+    /// An error is allowed, and it is below the tolerance of `f32`.
     RoundingExceedsError {
+        /// As in [`Reason::RoundingIsNoCut`].
         tolerance: f64,
     },
+    /// An error is allowed, and silhouettes may move by more than half a pixel.
     RoundingMovesSilhouettes {
+        /// As in [`Reason::RoundingIsNoCut`].
         shift_pixels: f64,
     },
     /// Though the allowed error asks for it.
     NoFloat64 {
+        /// As in [`Reason::RoundingIsNoCut`].
         tolerance: f64,
+        /// As in [`Reason::RoundingIsNoCut`].
         shift_pixels: f64,
     },
+    /// Of structures: every solid of every kind is looked at.
     FewSolids {
+        /// Of the kind that has most.
         solids: usize,
+        /// Most that are looked at one by one: [`Structure::BREAK_EVEN`].
         break_even: usize,
     },
+    /// Of structures: some kind has boxes around its solids.
     ManySolids {
+        /// Of the kind that has most.
         solids: usize,
+        /// Most that are looked at one by one: [`Structure::BREAK_EVEN`].
         break_even: usize,
     },
+    /// Of the workgroup, which has one shape for all scenes.
     SquareWorkgroup,
+    /// Of pixels per invocation: one, for want of [`Limits::packets`](super::Limits::packets).
     NoPackets,
+    /// Of pixels per invocation: several, where there are packets.
     ManyPixelsPerInvocation,
+    /// Of pixels per invocation: one, since a CPU driver ends loops after so many iterations.
     LongPixels,
+    /// Of tiles: they are as large as they get.
     LightTiles,
-    /// `largest`: side of a tile without that, pixels.
+    /// Of tiles: larger ones could take a submission longer than a second or two.
     HeavyTiles {
+        /// Side of a tile without that, pixels.
         largest: u32,
     },
 }
@@ -239,7 +296,9 @@ impl fmt::Display for Short {
 pub struct Line {
     /// What it is about.
     pub what: &'static str,
+    /// What was decided, in words or a number.
     pub choice: String,
+    /// The [`Reason`], or another line of text.
     pub why: String,
     /// What is left out of the kernel or of its work.
     pub saves: Option<String>,

@@ -9,7 +9,10 @@ pub enum Structure {
     /// Every solid's proxy is tried by every ray.
     None,
     /// Boxes around every eight solids, around every eight boxes, and so on: so many levels.
-    Hierarchy { levels: u32 },
+    Hierarchy {
+        /// From 1 to [`Structure::MOST_LEVELS`].
+        levels: u32,
+    },
 }
 
 impl Structure {

@@ -47,7 +47,9 @@ pub struct Pixel {
 /// A picture in linear `f64` RGB.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Image64 {
+    /// Pixels.
     pub width: u32,
+    /// Pixels.
     pub height: u32,
     /// `width`·`height`, row by row, the top row first.
     pub pixels: Vec<Pixel>,
@@ -64,10 +66,23 @@ impl Image64 {
 /// Why there is no picture.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum RenderError {
+    /// A side is 0.
     #[error("could not render a picture of {width}×{height} pixels: it has none")]
-    Empty { width: u32, height: u32 },
+    Empty {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+    /// There is no memory for the pixels, which are all held at once.
     #[error("could not render a picture of {width}×{height} pixels: not enough memory")]
-    OutOfMemory { width: u32, height: u32 },
+    OutOfMemory {
+        /// Pixels.
+        width: u32,
+        /// Pixels.
+        height: u32,
+    },
+    /// `progress` answered with a break.
     #[error("rendering was cancelled")]
     Cancelled,
 }

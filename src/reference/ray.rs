@@ -3,6 +3,7 @@ use glam::DVec3;
 /// A half-line in the world frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ray {
+    /// Finite, or the ray meets nothing.
     pub origin: DVec3,
     /// Of any length whose square is a positive finite `f64`; distances along the ray count in this length.
     pub direction: DVec3,
@@ -11,7 +12,9 @@ pub struct Ray {
 /// On which side of a solid's surface a ray arrives or leaves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Side {
+    /// The unbounded side.
     Outside,
+    /// The side that the solid fills.
     Inside,
 }
 
@@ -21,7 +24,12 @@ pub enum Face {
     /// The sphere, the cylinder's body, the cone's side.
     Curved,
     /// Of a box: where the coordinate of this box axis (0, 1, 2) is +half size or −half size.
-    Slab { axis: u8, positive: bool },
+    Slab {
+        /// Of the box's own frame.
+        axis: u8,
+        /// Whether it is +half size.
+        positive: bool,
+    },
     /// Of a cylinder: the base about `ends[0]` or `ends[1]`.
     End(u8),
     /// The cone's base disk.
@@ -33,12 +41,15 @@ pub enum Face {
 pub struct Hit {
     /// In lengths of the ray's direction.
     pub t: f64,
+    /// On the surface to rounding.
     pub point: DVec3,
     /// Unit normal towards the side the ray came from.
     pub normal: DVec3,
     /// Index into `Scene::primitives`.
     pub primitive: u32,
+    /// What it meets of the primitive's surface.
     pub face: Face,
+    /// The one the ray came from.
     pub side: Side,
 }
 
@@ -56,5 +67,12 @@ pub enum OriginSurface {
     Free,
     /// A point computed to lie on a primitive, from which the ray leaves to this side: a convex solid cannot be met
     /// again from outside, and only its exit can be met from inside.
-    Surface { primitive: u32, face: Face, side: Side },
+    Surface {
+        /// Index into `Scene::primitives`.
+        primitive: u32,
+        /// Of that primitive, where the point lies on it.
+        face: Face,
+        /// Into which the ray leaves.
+        side: Side,
+    },
 }

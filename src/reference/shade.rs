@@ -21,6 +21,7 @@ pub struct World<'a> {
 }
 
 impl<'a> World<'a> {
+    /// Prepares what all rays share.
     pub fn new(scene: &'a Scene) -> Self {
         let origin = origin(scene);
         let ball = |light: &Light| (light.radius > 0.0).then(|| Solids::about(origin, &[ball(light)]));

@@ -5,11 +5,14 @@ use super::{Primitive, Solid};
 
 /// A sphere around a solid, world frame.
 pub struct BoundingSphere {
+    /// World frame.
     pub center: DVec3,
+    /// World units.
     pub radius: f64,
 }
 
 impl BoundingSphere {
+    /// The smallest one, to rounding.
     pub fn of(solid: &Solid) -> Self {
         match *solid {
             Solid::Sphere { center, radius } => Self { center, radius },

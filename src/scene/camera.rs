@@ -12,6 +12,7 @@ pub enum Projection {
 }
 
 impl Projection {
+    /// The default first.
     pub const ALL: [Projection; 2] = [Self::Centered, Self::Course];
 
     /// The word of the scene file.
@@ -26,6 +27,7 @@ impl Projection {
 /// A pinhole camera in the world frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Camera {
+    /// The pinhole's, world frame.
     pub position: DVec3,
     /// Viewing direction; any length but zero.
     pub direction: DVec3,
@@ -33,6 +35,7 @@ pub struct Camera {
     pub up: DVec3,
     /// Angle between the centred window's lower and upper edge, in (0, 180).
     pub vertical_fov_degrees: f64,
+    /// Where the optical axis meets the picture.
     pub projection: Projection,
 }
 

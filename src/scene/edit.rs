@@ -12,6 +12,7 @@ pub const COURSE_PRIMITIVE_LIMIT: usize = 100;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
 #[error("the scene already holds {limit} primitives, the most allowed here")]
 pub struct TooManyPrimitives {
+    /// What the caller allows, which may be less than [`PRIMITIVE_LIMIT`](super::PRIMITIVE_LIMIT).
     pub limit: usize,
 }
 

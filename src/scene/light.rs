@@ -3,6 +3,7 @@ use glam::DVec3;
 /// A point light without attenuation, which primary rays see from outside as a sphere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Light {
+    /// World frame; the middle of the sphere.
     pub position: DVec3,
     /// Linear RGB, not limited to 1.
     pub intensity: DVec3,

@@ -34,11 +34,13 @@ use glam::DVec3;
 /// Everything a picture depends on but its size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
+    /// Where rays start, world frame.
     pub camera: Camera,
     /// Linear RGB seen where a primary ray meets nothing.
     pub background: DVec3,
     /// Largest number of generations of a ray: 1 is the primary ray alone.
     pub max_depth: u32,
+    /// In file order; at most [`LIGHT_LIMIT`].
     pub lights: Vec<Light>,
     /// In file order; a tie between two primitives of one kind goes to the earlier one.
     pub primitives: Vec<Primitive>,

@@ -8,7 +8,9 @@ use super::Material;
 pub struct Primitive {
     /// For people only; need not be unique.
     pub name: Option<String>,
+    /// Shape and pose, world frame.
     pub solid: Solid,
+    /// The same all over its surface.
     pub material: Material,
 }
 
@@ -23,9 +25,13 @@ impl Primitive {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SolidKind {
+    /// Told by its centre and radius.
     Sphere,
+    /// Told by its centre, half sizes and three angles.
     Box,
+    /// Told by the centres of its bases and its radius.
     Cylinder,
+    /// Told by its apex, axis, height and angle.
     Cone,
 }
 
@@ -47,12 +53,18 @@ impl SolidKind {
 /// Shape and pose in the world frame.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Solid {
+    /// All that is at most `radius` from `center`.
     Sphere {
+        /// World frame.
         center: DVec3,
+        /// World units.
         radius: f64,
     },
+    /// Turned about its centre.
     Box {
+        /// World frame.
         center: DVec3,
+        /// Half of each edge, along the box's own axes; world units.
         half_size: DVec3,
         /// (a, b, c) of local→world = Rx(−a)·Ry(−b)·Rz(−c), the course's rule.
         rotation_degrees: DVec3,
@@ -61,13 +73,16 @@ pub enum Solid {
     Cylinder {
         /// Centres of the two bases.
         ends: [DVec3; 2],
+        /// Of both bases; world units.
         radius: f64,
     },
     /// One nappe from the apex to the base disk at `height` along `axis`.
     Cone {
+        /// World frame.
         apex: DVec3,
         /// From the apex towards the base; unit length.
         axis: DVec3,
+        /// Along the axis, world units.
         height: f64,
         /// Angle between axis and side, in (0, 90).
         half_angle_degrees: f64,
@@ -75,6 +90,7 @@ pub enum Solid {
 }
 
 impl Solid {
+    /// Which of the four it is.
     pub fn kind(&self) -> SolidKind {
         match self {
             Self::Sphere { .. } => SolidKind::Sphere,

@@ -14,6 +14,7 @@ const FARTHEST_LIGHT: f64 = (1_u64 << 60) as f64;
 pub struct SceneSpace {
     /// World frame.
     pub origin: DVec3,
+    /// Kernel lengths in a world unit.
     pub scale: f64,
     /// Half of the largest coordinate of a solid or of a ray's origin, kernel lengths.
     pub reach: f32,

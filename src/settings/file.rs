@@ -15,12 +15,32 @@ use crate::whole_file::WholeFile;
 /// Why a setting could not be read or written; each message is one line.
 #[derive(Debug, Error)]
 pub enum SettingsError {
+    /// The file's text is no setting, or one that contradicts itself.
     #[error("{}:{line}: {what}", path.display())]
-    Invalid { path: PathBuf, line: usize, what: String },
+    Invalid {
+        /// As it was given.
+        path: PathBuf,
+        /// From 1.
+        line: usize,
+        /// What is wrong there, in one line.
+        what: String,
+    },
+    /// There is no such file, or it cannot be read, is too large or is no text.
     #[error("could not read setting {path:?}: {reason}")]
-    Read { path: PathBuf, reason: String },
+    Read {
+        /// As it was given.
+        path: PathBuf,
+        /// The system's own words, or what a file has to be.
+        reason: String,
+    },
+    /// The file cannot be written whole.
     #[error("could not write setting {path:?}: {reason}")]
-    Write { path: PathBuf, reason: String },
+    Write {
+        /// As it was given.
+        path: PathBuf,
+        /// The system's own words.
+        reason: String,
+    },
 }
 
 impl SettingsError {

@@ -16,6 +16,7 @@ use crate::scene::DEPTH_LIMIT;
 /// How a picture is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct RenderSettings {
+    /// What the other fields ask of it, it must be able to do; see [`RenderSettings::check`].
     #[serde(rename = "kernel")]
     pub algorithm: Algorithm,
     /// `None`: as the plan chooses, where the algorithm has a choice.
@@ -26,7 +27,7 @@ pub struct RenderSettings {
     pub max_depth: Option<u32>,
     /// Whether rays find solids by boxes around them, or look at each.
     pub boxes: bool,
-    /// Of a pixel. See [`sampling`](crate::tracer::sampling).
+    /// Of a pixel. See [`sampling`].
     pub samples: u32,
     /// Size of the traced picture against the one asked for.
     pub scale: f64,
@@ -51,11 +52,14 @@ impl Default for RenderSettings {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{what}")]
 pub struct Contradiction {
+    /// Its name in [`RenderSettings`] and in a file.
     pub field: &'static str,
+    /// One line, with the value at fault.
     pub what: String,
 }
 
 impl RenderSettings {
+    /// `samples` and `scale` together; whether they are possible is for [`RenderSettings::check`].
     pub fn sampling(&self) -> Sampling {
         Sampling { samples: self.samples, scale: self.scale }
     }

@@ -5,9 +5,11 @@ use crate::gpu::{Message, Messages, Remark, Severity};
 /// Messages of one id and severity.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Group {
+    /// Of all of them.
     pub severity: Severity,
     /// The layer's, mostly of a rule of the specification (VUID).
     pub id: String,
+    /// How often they came.
     pub count: usize,
     /// Of the first message.
     pub text: String,

@@ -13,15 +13,21 @@ use crate::tracer::{Tracer, TracerError};
 
 /// A kind of validation with the runs that are drawn under it.
 pub struct Program {
+    /// What the layer checks.
     pub validation: Validation,
+    /// Those of one shader in a row, which one thread draws.
     pub runs: Vec<Run>,
 }
 
 /// What came of a [`Program`], up to its end or the first failure.
 pub struct OffScreen {
+    /// Those of the program's kind of validation.
     pub checks: Vec<TriedCheck>,
+    /// How many runs there were, and were begun.
     pub pass: Pass,
+    /// What the layer and the recorder said, with the runs that brought it.
     pub found: Findings,
+    /// The first failure, where there was one.
     pub drawn: Result<(), TracerError>,
 }
 

@@ -6,16 +6,23 @@ use crate::gpu::{Check, DeviceDescription, Layer, Remark, Validation};
 /// What was drawn under validation, and what was said of it.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Outcome {
+    /// Its name, as the driver gives it.
     pub device: String,
+    /// Its name and version, as the driver gives them.
     pub driver: String,
+    /// The layer that checked.
     pub layer: Layer,
+    /// Whether the runs are those of [`Scope::EverySwitch`](super::Scope::EverySwitch).
     pub quick: bool,
     /// Pixels.
     pub width: u32,
+    /// Pixels.
     pub height: u32,
     /// False after Ctrl-C or a failure.
     pub complete: bool,
+    /// Of every kind of validation that was asked for.
     pub checks: Vec<TriedCheck>,
+    /// First those off screen, then those in a window.
     pub passes: Vec<Pass>,
     /// Why nothing was drawn in a window; `None` where it was.
     pub no_window: Option<String>,
@@ -23,13 +30,18 @@ pub struct Outcome {
     pub switches: Vec<Switch>,
     /// Of all groups.
     pub message_count: usize,
+    /// What is at fault, in the order of their first messages.
     pub messages: Vec<Group>,
+    /// What is not at fault.
     pub remarks: Vec<Remarked>,
 }
 
+/// A check that was tried out before it was relied on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct TriedCheck {
+    /// Name of the kind that asks for it.
     pub validation: &'static str,
+    /// Which should have told of the mistake.
     pub check: Check,
     /// Whether a mistake made on purpose was told.
     pub works: bool,
@@ -38,8 +50,11 @@ pub struct TriedCheck {
 /// Runs under one kind of validation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Pass {
+    /// Name of that kind.
     pub validation: &'static str,
+    /// Whether they are drawn in a window, rather than off screen.
     pub in_window: bool,
+    /// How many there are to be drawn.
     pub runs: usize,
     /// How many of them were begun.
     pub begun: usize,
@@ -48,12 +63,15 @@ pub struct Pass {
 /// What a layer said that is no fault.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Remarked {
+    /// How often it was said.
     pub count: usize,
+    /// In JSON its fields stand beside `count`.
     #[serde(flatten)]
     pub remark: Remark,
 }
 
 impl Remarked {
+    /// Of an entry of [`Findings::remarks`].
     pub fn of((remark, count): (Remark, usize)) -> Self {
         Self { count, remark }
     }
@@ -81,6 +99,7 @@ impl Outcome {
         }
     }
 
+    /// In place of what was taken in before.
     pub fn take_in(&mut self, findings: Findings) {
         self.message_count = findings.count();
         let Findings { groups, remarks } = findings;
@@ -90,6 +109,7 @@ impl Outcome {
 }
 
 impl Pass {
+    /// With none of the `runs` begun.
     pub fn new(validation: Validation, in_window: bool, runs: usize) -> Self {
         Self { validation: validation.name(), in_window, runs, begun: 0 }
     }

@@ -48,7 +48,9 @@ pub enum Scope {
 pub struct Run {
     /// Such as `corridor, whitted f64, error 1/510`.
     pub name: String,
+    /// Shared with other runs of it.
     pub scene: Arc<Scene>,
+    /// Of a picture of [`PICTURE`] pixels.
     pub settings: Settings,
     /// Whether the window draws it in no other way.
     pub is_as_in_window: bool,

@@ -103,8 +103,11 @@ fn states(run: &Run) -> Option<[State; 17]> {
 /// A part of an accurate kernel, with how many runs have it and how many do not.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct Switch {
+    /// In the plural, mostly, and the same in every report.
     pub name: &'static str,
+    /// Runs that have it.
     pub on: usize,
+    /// Runs that do not.
     pub off: usize,
 }
 

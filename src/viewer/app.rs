@@ -21,13 +21,21 @@ use crate::gpu::Messages;
 /// Why there is no window, or none any more.
 #[derive(Debug, thiserror::Error)]
 pub enum ViewerError {
-    /// `instead`: what works without one.
+    /// No display is found, or it cannot be connected to.
     #[error("no window can be opened here ({}); {instead}", without_place(.reason))]
-    NoDisplay { reason: EventLoopError, instead: &'static str },
+    NoDisplay {
+        /// The window library's.
+        reason: EventLoopError,
+        /// What works without a window: the end of a sentence.
+        instead: &'static str,
+    },
+    /// There is a display, and it does not open the window.
     #[error("could not open the window: {0}")]
     Window(#[from] OsError),
+    /// The device or what is drawn there failed, at the start or later.
     #[error(transparent)]
     Screen(#[from] ScreenError),
+    /// Of the window library, while the window was open.
     #[error("the window's events came to an end: {0}")]
     Events(EventLoopError),
 }
@@ -50,6 +58,7 @@ fn without_place(error: &EventLoopError) -> String {
 pub struct Stopper(EventLoopProxy<Wake>);
 
 impl Stopper {
+    /// Asks for it and does not wait; of a window that is closed already nothing is asked.
     pub fn stop(&self) {
         // A window that is closed already needs no closing.
         let _ = self.0.send_event(Wake::Stop);

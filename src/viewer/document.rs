@@ -35,6 +35,7 @@ impl Document {
         }
     }
 
+    /// Always valid; its camera is the window's.
     pub fn scene(&self) -> &Scene {
         &self.current.scene
     }
@@ -62,6 +63,7 @@ impl Document {
         self.current.selection
     }
 
+    /// `None` where no primitive is.
     pub fn selected(&self) -> Option<&Primitive> {
         self.scene().primitives.get(self.selection()?)
     }
@@ -80,6 +82,7 @@ impl Document {
         })
     }
 
+    /// Whether edits would be lost by closing; a recovered document always has some.
     pub fn has_unsaved_changes(&self) -> bool {
         !self.saved.as_ref().is_some_and(|saved| is_same_work(saved, self.scene()))
     }
@@ -96,10 +99,12 @@ impl Document {
         Ok(())
     }
 
+    /// Whether there is an edit to be taken back.
     pub fn can_undo(&self) -> bool {
         self.history.can_undo()
     }
 
+    /// Whether an edit was taken back, and none made since.
     pub fn can_redo(&self) -> bool {
         self.history.can_redo()
     }

@@ -12,6 +12,7 @@ impl FrameTimes {
     /// Enough for a 99th percentile that is not the maximum.
     pub const CAPACITY: usize = 240;
 
+    /// Takes the place of the oldest where there are [`FrameTimes::CAPACITY`] already.
     pub fn push(&mut self, gpu_time_ns: u64) {
         if self.samples_ns.len() == Self::CAPACITY {
             self.samples_ns.pop_front();
@@ -24,6 +25,7 @@ impl FrameTimes {
         self.samples_ns.clear();
     }
 
+    /// Oldest first.
     pub fn samples_ns(&self) -> impl ExactSizeIterator<Item = u64> + '_ {
         self.samples_ns.iter().copied()
     }

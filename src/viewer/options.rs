@@ -11,6 +11,7 @@ use crate::settings::RenderSettings;
 pub struct Options {
     /// Number or part of the name of a device.
     pub device: Option<String>,
+    /// What comes of it is returned by [`run`](super::run).
     pub validation: Validation,
     /// Prints a line of JSON for every frame that differs from the last.
     pub is_observed: bool,

@@ -138,6 +138,7 @@ impl<'d> PictureWindow<'d> {
         on_screen().map_err(|error| ScreenError::from(error).into())
     }
 
+    /// What the pictures are traced on.
     pub fn device(&self) -> &Device {
         &self.device
     }

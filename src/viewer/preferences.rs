@@ -27,7 +27,9 @@ pub fn file_in(folder: &Path) -> PathBuf {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Language {
+    /// In the course work's words, where it has them.
     Russian,
+    /// For every locale but Russian ones.
     English,
 }
 
@@ -39,10 +41,13 @@ impl Language {
     }
 }
 
+/// Colours of the widgets; the picture has its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Theme {
+    /// Light on dark.
     Dark,
+    /// Dark on light.
     Light,
 }
 
@@ -50,18 +55,25 @@ pub enum Theme {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum UsualKernel {
+    /// The course work's, on the Vulkan device.
     Course,
     /// In `f32` where that is right.
     Whitted,
+    /// In `f32` even where that is wrong.
     WhittedF32,
+    /// In `f64`, for devices that have it.
     WhittedF64,
+    /// In `f64` on the CPU.
     Reference,
 }
 
+/// All that one run leaves to the next, unsaved work apart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Preferences {
+    /// By default the system's, if it is one of these.
     pub language: Language,
+    /// By default dark.
     pub theme: Theme,
     /// Times the display's own scale.
     pub ui_scale: f32,
@@ -73,6 +85,7 @@ pub struct Preferences {
     pub is_mouse_inverted: bool,
     /// Pictures wait for the display; off in the course's measurements.
     pub waits_for_display: bool,
+    /// What draws at first.
     pub kernel: UsualKernel,
     /// Of each pixel by the accurate kernels, at most: so many there are once nothing has changed for long enough.
     pub samples: u32,

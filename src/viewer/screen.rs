@@ -15,8 +15,10 @@ use crate::tracer::{Canvas, Kernel, Precision, TracerError};
 /// Why the window cannot go on.
 #[derive(Debug, thiserror::Error)]
 pub enum ScreenError {
+    /// Of the device, or of what traces on it.
     #[error(transparent)]
     Tracer(#[from] TracerError),
+    /// Of the library that draws the widgets on the device.
     #[error("could not draw the widgets: {0}")]
     Widgets(#[from] RendererError),
     /// Of what scripts are told.
@@ -31,7 +33,7 @@ impl From<GpuError> for ScreenError {
 }
 
 impl ScreenError {
-    /// Whether the device is gone, which a new [`Screen`] may mend.
+    /// Whether the device is gone, which opening one anew may mend.
     pub fn is_device_lost(&self) -> bool {
         match self {
             Self::Tracer(TracerError::Gpu(error)) => error.is_device_lost(),

@@ -16,8 +16,11 @@ use crate::settings::sampling::Sampling;
 /// All of the window but its picture.
 #[derive(Debug)]
 pub struct State {
+    /// The scene, what is selected in it, its file and its history.
     pub document: Document,
+    /// To be kept for the next run.
     pub preferences: Preferences,
+    /// What draws the picture now, which need not be the usual one.
     pub kernel: Kernel,
     /// Of the accurate kernels: size of the traced picture against the one shown.
     scale: f64,
@@ -25,6 +28,7 @@ pub struct State {
     pub setting: Option<RenderSettings>,
     /// Traces anew though nothing changes, as measuring needs.
     pub is_continuous: bool,
+    /// Whether the sheet of keys is to be seen.
     pub is_help_shown: bool,
     /// The modal dialog over everything, if there is one.
     pub dialog: Option<Dialog>,
@@ -48,10 +52,12 @@ pub enum Dialog {
     Recover,
 }
 
+/// What a dialog says, before it is put into words.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Message {
     /// The course's «Не добавлено ни одного примитива.»
     NoPrimitives,
+    /// An edit is one of the selected primitive, and none is.
     NothingSelected,
     /// The course's «Превышено максимальное число примитивов»
     TooManyPrimitives,
@@ -79,10 +85,14 @@ impl From<Refusal> for Message {
     }
 }
 
+/// What a file dialog is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilePurpose {
+    /// A scene to be read.
     Open,
+    /// Where the scene is written; a name without an extension gets `.toml`.
     Save,
+    /// Where the picture is written; a name without an extension gets `.png`.
     Screenshot,
 }
 

@@ -15,22 +15,24 @@ pub const NO_FIGURE: &str = "—";
 /// The words of one language.
 #[derive(Debug)]
 pub struct Words {
+    /// Of the menu bar.
     pub menu: MenuWords,
-    pub groups: GroupWords,
+    pub(super) groups: GroupWords,
+    /// Of the modal dialogs.
     pub dialogs: DialogWords,
-    pub help: HelpWords,
+    pub(super) help: HelpWords,
 
     /// Singular, as numbered names begin: «Сфера1».
-    pub kind_names: KindWords,
+    pub(super) kind_names: KindWords,
     /// Plural, for the grids of table 4.1.
-    pub kind_plurals: KindWords,
+    pub(super) kind_plurals: KindWords,
 
-    pub status_untitled: &'static str,
-    pub status_unsaved: &'static str,
-    pub refusal_title: &'static str,
+    pub(super) status_untitled: &'static str,
+    pub(super) status_unsaved: &'static str,
+    pub(super) refusal_title: &'static str,
     /// Over why the picture is not right.
-    pub too_coarse_title: &'static str,
-    pub shader_error_title: &'static str,
+    pub(super) too_coarse_title: &'static str,
+    pub(super) shader_error_title: &'static str,
 
     decimal_separator: &'static str,
     milliseconds: &'static str,
@@ -38,7 +40,7 @@ pub struct Words {
 
 /// A word a kind of solid.
 #[derive(Debug)]
-pub struct KindWords {
+pub(super) struct KindWords {
     sphere: &'static str,
     cube: &'static str,
     cylinder: &'static str,
@@ -59,160 +61,166 @@ impl KindWords {
 /// Of the menu bar.
 #[derive(Debug)]
 pub struct MenuWords {
+    /// Title of the first menu.
     pub file: &'static str,
-    pub new: &'static str,
-    pub open: &'static str,
-    pub save: &'static str,
-    pub save_as: &'static str,
-    pub screenshot: &'static str,
+    pub(super) new: &'static str,
+    pub(super) open: &'static str,
+    pub(super) save: &'static str,
+    pub(super) save_as: &'static str,
+    pub(super) screenshot: &'static str,
+    /// Last entry of the first menu.
     pub quit: &'static str,
 
-    pub edit: &'static str,
-    pub undo: &'static str,
-    pub redo: &'static str,
-    pub duplicate: &'static str,
-    pub delete: &'static str,
+    pub(super) edit: &'static str,
+    pub(super) undo: &'static str,
+    pub(super) redo: &'static str,
+    pub(super) duplicate: &'static str,
+    pub(super) delete: &'static str,
 
-    pub gallery: &'static str,
+    pub(super) gallery: &'static str,
     /// Before the plural of a kind.
-    pub grids_of: &'static str,
+    pub(super) grids_of: &'static str,
 
-    pub view: &'static str,
-    pub language: &'static str,
-    pub theme: &'static str,
-    pub dark: &'static str,
-    pub light: &'static str,
-    pub ui_scale: &'static str,
-    pub continuous: &'static str,
-    pub waits_for_display: &'static str,
+    pub(super) view: &'static str,
+    pub(super) language: &'static str,
+    pub(super) theme: &'static str,
+    pub(super) dark: &'static str,
+    pub(super) light: &'static str,
+    pub(super) ui_scale: &'static str,
+    pub(super) continuous: &'static str,
+    pub(super) waits_for_display: &'static str,
 
-    pub help: &'static str,
-    pub keys_and_mouse: &'static str,
+    pub(super) help: &'static str,
+    pub(super) keys_and_mouse: &'static str,
 }
 
 /// Of the groups on the right. Capitals begin what stands by itself: titles, buttons, choices.
 #[derive(Debug)]
-pub struct GroupWords {
+pub(super) struct GroupWords {
     // ---- The course's groups, in its order and its words.
-    pub light: &'static str,
-    pub adding: &'static str,
-    pub add: KindWords,
-    pub choosing: &'static str,
-    pub moving: &'static str,
-    pub move_it: &'static str,
-    pub rotating: &'static str,
-    pub rotate_it: &'static str,
-    pub material: &'static str,
+    pub(super) light: &'static str,
+    pub(super) adding: &'static str,
+    pub(super) add: KindWords,
+    pub(super) choosing: &'static str,
+    pub(super) moving: &'static str,
+    pub(super) move_it: &'static str,
+    pub(super) rotating: &'static str,
+    pub(super) rotate_it: &'static str,
+    pub(super) material: &'static str,
 
-    pub add_light: &'static str,
+    pub(super) add_light: &'static str,
     /// Before its number.
-    pub delete_light: &'static str,
+    pub(super) delete_light: &'static str,
 
-    pub selected: &'static str,
-    pub nothing_selected: &'static str,
-    pub previous: &'static str,
-    pub next: &'static str,
-    pub name: &'static str,
-    pub duplicate: &'static str,
-    pub delete: &'static str,
+    pub(super) selected: &'static str,
+    pub(super) nothing_selected: &'static str,
+    pub(super) previous: &'static str,
+    pub(super) next: &'static str,
+    pub(super) name: &'static str,
+    pub(super) duplicate: &'static str,
+    pub(super) delete: &'static str,
 
-    pub shape: &'static str,
-    pub radius: &'static str,
-    pub half_size: &'static str,
-    pub first_end: &'static str,
-    pub second_end: &'static str,
-    pub apex: &'static str,
-    pub axis: &'static str,
-    pub height: &'static str,
-    pub half_angle: &'static str,
+    pub(super) shape: &'static str,
+    pub(super) radius: &'static str,
+    pub(super) half_size: &'static str,
+    pub(super) first_end: &'static str,
+    pub(super) second_end: &'static str,
+    pub(super) apex: &'static str,
+    pub(super) axis: &'static str,
+    pub(super) height: &'static str,
+    pub(super) half_angle: &'static str,
 
-    pub camera: &'static str,
-    pub background: &'static str,
-    pub max_depth: &'static str,
-    pub max_depth_hint: &'static str,
-    pub projection: &'static str,
-    pub projection_course: &'static str,
-    pub projection_course_hint: &'static str,
-    pub projection_centered: &'static str,
-    pub vertical_fov: &'static str,
-    pub kernel: &'static str,
-    pub kernel_course: &'static str,
-    pub kernel_course_hint: &'static str,
-    pub kernel_accurate: &'static str,
-    pub kernel_accurate_hint: &'static str,
-    pub kernel_accurate_f32: &'static str,
-    pub kernel_accurate_f32_hint: &'static str,
-    pub kernel_accurate_f64: &'static str,
-    pub kernel_accurate_f64_hint: &'static str,
-    pub kernel_reference: &'static str,
-    pub kernel_reference_hint: &'static str,
-    pub kernel_by_setting: &'static str,
-    pub samples: &'static str,
-    pub samples_hint: &'static str,
-    pub scale: &'static str,
-    pub scale_hint: &'static str,
-    pub reset_camera: &'static str,
-    pub fly_speed: &'static str,
-    pub invert_mouse: &'static str,
+    pub(super) camera: &'static str,
+    pub(super) background: &'static str,
+    pub(super) max_depth: &'static str,
+    pub(super) max_depth_hint: &'static str,
+    pub(super) projection: &'static str,
+    pub(super) projection_course: &'static str,
+    pub(super) projection_course_hint: &'static str,
+    pub(super) projection_centered: &'static str,
+    pub(super) vertical_fov: &'static str,
+    pub(super) kernel: &'static str,
+    pub(super) kernel_course: &'static str,
+    pub(super) kernel_course_hint: &'static str,
+    pub(super) kernel_accurate: &'static str,
+    pub(super) kernel_accurate_hint: &'static str,
+    pub(super) kernel_accurate_f32: &'static str,
+    pub(super) kernel_accurate_f32_hint: &'static str,
+    pub(super) kernel_accurate_f64: &'static str,
+    pub(super) kernel_accurate_f64_hint: &'static str,
+    pub(super) kernel_reference: &'static str,
+    pub(super) kernel_reference_hint: &'static str,
+    pub(super) kernel_by_setting: &'static str,
+    pub(super) samples: &'static str,
+    pub(super) samples_hint: &'static str,
+    pub(super) scale: &'static str,
+    pub(super) scale_hint: &'static str,
+    pub(super) reset_camera: &'static str,
+    pub(super) fly_speed: &'static str,
+    pub(super) invert_mouse: &'static str,
 
-    pub timing: &'static str,
-    pub fps: &'static str,
-    pub median: &'static str,
-    pub percentile_99: &'static str,
-    pub graph_frames: &'static str,
-    pub graph_time: &'static str,
+    pub(super) timing: &'static str,
+    pub(super) fps: &'static str,
+    pub(super) median: &'static str,
+    pub(super) percentile_99: &'static str,
+    pub(super) graph_frames: &'static str,
+    pub(super) graph_time: &'static str,
 }
 
 /// Of the modal dialogs.
 #[derive(Debug)]
 pub struct DialogWords {
-    pub error: &'static str,
-    pub ok: &'static str,
-    pub cancel: &'static str,
-    pub no_primitives: &'static str,
-    pub scene_changed: &'static str,
-    pub nothing_selected: &'static str,
-    pub too_many_primitives: &'static str,
+    pub(super) error: &'static str,
+    pub(super) ok: &'static str,
+    pub(super) cancel: &'static str,
+    pub(super) no_primitives: &'static str,
+    pub(super) scene_changed: &'static str,
+    pub(super) nothing_selected: &'static str,
+    pub(super) too_many_primitives: &'static str,
 
-    pub unsaved_title: &'static str,
-    pub unsaved: &'static str,
-    pub save: &'static str,
+    pub(super) unsaved_title: &'static str,
+    pub(super) unsaved: &'static str,
+    pub(super) save: &'static str,
+    /// Answer to the question about unsaved changes.
     pub discard: &'static str,
 
-    pub recover_title: &'static str,
-    pub recover: &'static str,
-    pub recover_yes: &'static str,
-    pub recover_no: &'static str,
+    pub(super) recover_title: &'static str,
+    pub(super) recover: &'static str,
+    pub(super) recover_yes: &'static str,
+    pub(super) recover_no: &'static str,
 
-    pub open_title: &'static str,
-    pub save_title: &'static str,
-    pub screenshot_title: &'static str,
-    pub open: &'static str,
-    pub folder_up: &'static str,
+    pub(super) open_title: &'static str,
+    pub(super) save_title: &'static str,
+    pub(super) screenshot_title: &'static str,
+    pub(super) open: &'static str,
+    pub(super) folder_up: &'static str,
+    /// For the list of files; nothing shows it yet.
     pub files: &'static str,
-    pub no_files: &'static str,
+    pub(super) no_files: &'static str,
+    /// Label of the field for a name in a file dialog.
     pub file_name: &'static str,
-    pub file_name_missing: &'static str,
-    pub no_such_file: &'static str,
-    pub no_such_folder: &'static str,
-    pub scene_extension: &'static str,
-    pub picture_extension: &'static str,
+    pub(super) file_name_missing: &'static str,
+    pub(super) no_such_file: &'static str,
+    pub(super) no_such_folder: &'static str,
+    pub(super) scene_extension: &'static str,
+    pub(super) picture_extension: &'static str,
     /// Before what the system said.
-    pub folder_unreadable: &'static str,
-    pub replace_question: &'static str,
-    pub replace: &'static str,
-    pub keep: &'static str,
+    pub(super) folder_unreadable: &'static str,
+    pub(super) replace_question: &'static str,
+    pub(super) replace: &'static str,
+    pub(super) keep: &'static str,
 }
 
 /// Of the sheet of keys.
 #[derive(Debug)]
-pub struct HelpWords {
-    pub title: &'static str,
+pub(super) struct HelpWords {
+    pub(super) title: &'static str,
     /// What to press, what comes of it.
-    pub rows: [(&'static str, &'static str); 16],
+    pub(super) rows: [(&'static str, &'static str); 16],
 }
 
 impl Language {
+    /// All that the window says in it.
     pub fn words(self) -> &'static Words {
         match self {
             Self::Russian => &russian::WORDS,
@@ -240,7 +248,7 @@ impl Words {
         format!("{}{ordinal}", self.kind_names.of(kind))
     }
 
-    pub fn message<'a>(&self, message: &'a Message) -> &'a str {
+    pub(super) fn message<'a>(&self, message: &'a Message) -> &'a str {
         match message {
             Message::NoPrimitives => self.dialogs.no_primitives,
             Message::NothingSelected => self.dialogs.nothing_selected,
@@ -250,7 +258,7 @@ impl Words {
         }
     }
 
-    pub fn file_dialog_title(&self, purpose: FilePurpose) -> &'static str {
+    pub(super) fn file_dialog_title(&self, purpose: FilePurpose) -> &'static str {
         match purpose {
             FilePurpose::Open => self.dialogs.open_title,
             FilePurpose::Save => self.dialogs.save_title,

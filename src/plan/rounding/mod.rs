@@ -32,11 +32,24 @@ pub enum Rounding {
     /// Lengths are too near each other for anything that it could show.
     Mild,
     /// No more than a stray one of the pixels that were tried is changed.
-    Harmless { tried: usize },
+    Harmless {
+        /// Pixels all over the picture.
+        tried: usize,
+    },
     /// So many of the pixels that were tried are changed by more than [`Precision::rounding_tolerance`].
-    Harmful { wrong: usize, tried: usize, cause: Cause },
+    Harmful {
+        /// Those that were tried and are changed.
+        wrong: usize,
+        /// Pixels all over the picture.
+        tried: usize,
+        /// Looked for among the solids on the wrong pixels' paths.
+        cause: Cause,
+    },
     /// Lengths differ by `ratio`, and to try pixels would take too long: solids, lights and generations are too many.
-    Unknown { ratio: f64 },
+    Unknown {
+        /// How many times the smallest length the scene is.
+        ratio: f64,
+    },
 }
 
 /// Where the trouble comes from: indices of primitives, world lengths.
@@ -44,20 +57,27 @@ pub enum Rounding {
 pub struct Cause {
     /// The primitive whose numbers are rounded most.
     pub primitive: usize,
+    /// The largest of its radius, half edges, half axis or height.
     pub size: f64,
     /// How far rounding moves its surface.
     pub shift: f64,
+    /// What the shift is too large for.
     pub near: Near,
 }
 
 /// What is too small or too near for such a shift.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Near {
+    /// The smallest of the others.
     Primitive {
+        /// Its index.
         primitive: usize,
+        /// As [`Cause::size`].
         size: f64,
     },
+    /// The camera, where it is nearer to that surface than any other primitive is wide.
     Camera {
+        /// Of that surface from it, or less.
         distance: f64,
     },
     /// Nothing is, but curved mirrors magnify it.

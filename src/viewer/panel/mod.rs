@@ -33,9 +33,11 @@ use crate::plan::Precision;
 /// What the panel shows of the tracing, which is not the state's to know.
 #[derive(Debug)]
 pub struct Readings<'a> {
+    /// Its name; empty without one.
     pub device: &'a str,
     /// Of the picture shown, pixels.
     pub picture_size: [u32; 2],
+    /// Of pictures that the device traced; empty before the first.
     pub frame_times: &'a FrameTimes,
     /// Share of the picture that is traced, while it is not whole.
     pub progress: Option<f32>,
