@@ -9,13 +9,15 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use super::chunks::{Pace, Sweep};
-use super::live_kernel::{LiveKernel, State};
-use super::pixels::pixel_buffer;
-use super::{Kernel, Settings, TracerError};
+use super::pixels::check_picture;
+use super::renderer::{MadeFor, Renderer, Sample, TargetKind, renderer};
+use super::tiles::Tile;
+use super::upscale::{Upscaler, Upscaling};
+use super::{Kernel, Settings, TracerError, WORKGROUP};
 use crate::gpu::{Builds, Device, GpuError, InFlight, Recorder, Resource, Use};
 use crate::scene::Scene;
 use crate::settings::sampling::Sampling;
-use images::{Image, Upscaling, images};
+use images::{Image, images};
 pub use timing::Finished;
 use timing::{Chunk, Timing};
 
@@ -32,9 +34,7 @@ const LONG: Duration = Duration::from_millis(500);
 /// Where pixels have several samples, a picture has one of each at first; the others are added to it one after another
 /// while nothing changes.
 pub struct Canvas {
-    kernel: LiveKernel,
-    /// Which that is.
-    kind: Kernel,
+    renderer: Box<dyn Renderer>,
     builds: Builds,
     images: [Image; 2],
     /// Where a kernel draws that does not draw into an image: the picture begun last, which goes on from there into its
@@ -43,13 +43,11 @@ pub struct Canvas {
     shown: usize,
     /// Where the images are smaller than the picture.
     upscaling: Option<Upscaling>,
+    /// Whether the picture is made from all that the image shown has.
+    is_upscaled: bool,
     size: [u32; 2],
     sampling: Sampling,
     settings: Settings,
-    /// What the picture being traced, or else the last one, is of.
-    current: Option<State>,
-    /// What the next is of.
-    next: Option<State>,
     /// Index of the sample being traced, or else of the last one.
     sample: u32,
     sweep: Sweep,
@@ -66,22 +64,19 @@ pub struct Canvas {
 
 impl Canvas {
     /// By a kernel, made from these builds.
-    pub fn new(device: &Arc<Device>, kind: Kernel, builds: &Builds, size: [u32; 2]) -> Result<Self, TracerError> {
-        let kernel = LiveKernel::new(device, kind, builds)?;
+    pub fn new(device: &Arc<Device>, kernel: Kernel, builds: &Builds, size: [u32; 2]) -> Result<Self, TracerError> {
         Ok(Self {
             images: images(device, size)?,
             pixels: None,
-            sweep: Sweep::new(LiveKernel::blocks(size)),
-            kernel,
-            kind,
+            sweep: Sweep::new(size),
+            renderer: renderer(device, kernel, builds, MadeFor::Live)?,
             builds: builds.clone(),
             shown: 0,
             upscaling: None,
+            is_upscaled: false,
             size,
             sampling: Sampling::PLAIN,
             settings: Settings::new(size[0], size[1]),
-            current: None,
-            next: None,
             sample: 0,
             is_in_place: true,
             timing: Timing::new(device)?,
@@ -150,9 +145,12 @@ impl Canvas {
     fn remake(&mut self, in_flight: &mut InFlight, size: [u32; 2], sampling: Sampling) -> Result<(), TracerError> {
         let traced_size = sampling.traced_size(size);
         let images = images(&self.device, traced_size)?;
-        let upscaling = match sampling.scale < 1.0 {
-            true => Some(Upscaling::new(&self.device, size, traced_size, &images)?),
-            false => None,
+        let upscaling = if sampling.scale < 1.0 {
+            let upscaler = Upscaler::new(&self.device, size, traced_size)?;
+            let sources = images.iter().map(|image| image.resource.clone());
+            Some(Upscaling::new(&self.device, upscaler, size, sources)?)
+        } else {
+            None
         };
         for old in std::mem::replace(&mut self.images, images) {
             in_flight.forget(&old.resource);
@@ -163,16 +161,16 @@ impl Canvas {
         if let Some(old) = std::mem::replace(&mut self.upscaling, upscaling) {
             in_flight.forget(&old.picture);
         }
-        (self.size, self.sampling) = (size, sampling);
+        (self.size, self.sampling, self.is_upscaled) = (size, sampling, false);
         self.forget_scene();
         Ok(())
     }
 
     fn forget_scene(&mut self) {
-        (self.current, self.next) = (None, None);
+        self.renderer.forget();
         self.is_in_place = true;
         self.timing.last_took = None;
-        self.sweep = Sweep::new(LiveKernel::blocks(self.sampling.traced_size(self.size)));
+        self.sweep = Sweep::new(self.sampling.traced_size(self.size));
         self.timing.first_of_interest = self.begun + 1;
     }
 
@@ -187,20 +185,31 @@ impl Canvas {
     /// # Errors
     /// The kernel cannot take the scene; the picture stays as it is.
     pub fn show(&mut self, scene: &Scene) -> Result<(), TracerError> {
-        let wanted = self.kernel.prepare(scene, &self.settings, self.sampling, self.size)?;
-        let latest = self.next.as_ref().or(self.current.as_ref());
-        if latest != Some(&wanted) {
-            self.next = Some(wanted);
-        }
-        Ok(())
+        self.prepare(scene, false)
     }
 
     /// Asks for the same picture once more.
     pub fn trace_again(&mut self, scene: &Scene) -> Result<(), TracerError> {
-        if self.is_whole() {
-            self.next = Some(self.kernel.prepare(scene, &self.settings, self.sampling, self.size)?);
+        if self.is_whole() { self.prepare(scene, true) } else { Ok(()) }
+    }
+
+    fn prepare(&mut self, scene: &Scene, again: bool) -> Result<(), TracerError> {
+        let &Sampling { samples, scale } = &self.sampling;
+        let [width, height] = self.size;
+        if self.renderer.target() == TargetKind::Pixels {
+            check_picture(self.device.description(), self.sampling.traced_size(self.size))?;
         }
-        Ok(())
+        // Chunks are of whole workgroups.
+        let settings = Settings {
+            width,
+            height,
+            samples,
+            scale,
+            kernel: self.renderer.kernel(),
+            workgroup: WORKGROUP,
+            ..self.settings.clone()
+        };
+        self.renderer.prepare(scene, &settings, again)
     }
 
     /// Whether submissions are still needed for the picture asked for, or for the time that it took.
@@ -210,17 +219,17 @@ impl Canvas {
 
     /// Whether all of the picture shown is of the scene asked for last, by one sample a pixel at least.
     pub fn is_whole(&self) -> bool {
-        self.next.is_none() && (self.sweep.left() == 0 || self.sample > 0)
+        !self.renderer.has_next() && (self.sweep.left() == 0 || self.sample > 0)
     }
 
     /// Whether it is [whole](Canvas::is_whole) and has all samples.
     pub fn is_finished(&self) -> bool {
-        self.next.is_none() && self.sweep.left() == 0 && !self.lacks_samples()
+        !self.renderer.has_next() && self.sweep.left() == 0 && !self.lacks_samples()
     }
 
     /// Whether samples are to come of the picture shown, after the one being traced.
     fn lacks_samples(&self) -> bool {
-        self.current.as_ref().is_some_and(|current| self.sample + 1 < current.samples())
+        self.renderer.samples().is_some_and(|samples| self.sample + 1 < samples)
     }
 
     /// Whether the picture is seen while it comes into being: looking at it again shows more of it.
@@ -230,7 +239,7 @@ impl Canvas {
 
     /// Share of the picture that is traced, of all samples, while one is.
     pub fn progress(&self) -> Option<f32> {
-        let samples = u64::from(self.current.as_ref().map_or(1, State::samples));
+        let samples = u64::from(self.renderer.samples().unwrap_or(1));
         let done = (u64::from(self.sample) + 1) * self.sweep.total() - self.sweep.left();
         let is_under_way = self.sweep.left() > 0 || self.lacks_samples();
         is_under_way.then(|| done as f32 / (samples * self.sweep.total()) as f32)
@@ -262,13 +271,15 @@ impl Canvas {
     /// [collected](Canvas::collect).
     pub fn record(&mut self, recorder: &mut Recorder, place: usize) -> Result<(), GpuError> {
         self.clear(recorder);
-        if self.next.is_none() && self.sweep.left() == 0 && self.lacks_samples() {
+        if !self.renderer.has_next() && self.sweep.left() == 0 && self.lacks_samples() {
             self.begin_sample();
         } else if self.sweep.left() == 0 || self.is_in_place {
             self.begin(recorder)?;
         }
         let blocks = self.timing.pace.blocks().min(self.sweep.left());
-        let Some(scene) = self.current.as_ref().filter(|_| blocks > 0) else { return Ok(()) };
+        if blocks == 0 {
+            return Ok(());
+        }
         if !self.is_in_place && self.begun_at.elapsed() > LONG {
             // Longer than expected: from here on it is seen.
             self.shown = 1 - self.shown;
@@ -284,18 +295,19 @@ impl Canvas {
             // The barrier comes after the timer's start: with a framebuffer around, lavapipe takes a time only at the
             // next.
             recorder.make_ready(self.pixels.as_ref().unwrap_or(&self.images[target].resource), Use::ShaderWrite);
-            self.kernel.record(recorder, &set, scene, self.sample, &parts);
+            let tile = Tile::whole(self.sampling.traced_size(self.size));
+            self.renderer.record(recorder, &set, Sample { index: self.sample, tile, parts: &parts });
             if let Some(pixels) = &self.pixels {
-                self.images[target].take_blocks(recorder, pixels, &parts);
+                self.images[target].take(recorder, pixels, &parts);
             }
             if is_last {
                 self.shown = target;
             }
-            if let Some(upscaling) = self.upscaling.as_mut().filter(|_| target == self.shown) {
-                upscaling.is_current = false;
+            if target == self.shown {
+                self.is_upscaled = false;
                 if is_last {
                     // What it takes is part of the picture's time.
-                    upscaling.bring_up_to_date(recorder, &self.images, self.shown);
+                    self.upscale(recorder);
                 }
             }
             timer.iter().for_each(|timer| recorder.stop(timer));
@@ -310,26 +322,26 @@ impl Canvas {
     /// Brings the picture shown up to date where it is traced at a smaller size. To be recorded before it is looked at,
     /// after the [chunk](Canvas::record).
     pub fn upscale(&mut self, recorder: &mut Recorder) {
-        if let Some(upscaling) = &mut self.upscaling {
-            upscaling.bring_up_to_date(recorder, &self.images, self.shown);
+        if let Some(upscaling) = self.upscaling.as_ref().filter(|_| !self.is_upscaled) {
+            upscaling.record(recorder, self.shown, Tile::whole(self.size));
+            self.is_upscaled = true;
         }
     }
 
     /// Takes up the scene asked for.
     fn begin(&mut self, recorder: &mut Recorder) -> Result<(), GpuError> {
-        let Some(scene) = self.next.take() else { return Ok(()) };
-        let begun = self.kernel.begin(recorder, &scene)?;
-        self.uploaded_bytes += begun.uploaded;
-        self.dropped.extend(begun.dropped);
-        if self.kernel.draws_pixels() && self.pixels.is_none() {
-            self.pixels = Some(pixel_buffer(&self.device, "pixels", self.sampling.traced_size(self.size))?);
+        let Some(taken_up) = self.renderer.take_up(recorder)? else { return Ok(()) };
+        self.uploaded_bytes += taken_up.uploaded;
+        self.dropped.extend(taken_up.dropped);
+        if self.renderer.target() == TargetKind::Pixels && self.pixels.is_none() {
+            let traced_size = self.sampling.traced_size(self.size);
+            self.pixels = Some(TargetKind::Pixels.make(&self.device, "pixels", traced_size)?);
         }
         for image in &mut self.images {
-            if begun.needs_binding || image.set.is_none() {
-                image.set = self.kernel.bind(self.pixels.as_ref().unwrap_or(&image.resource))?;
+            if taken_up.needs_binding || image.set.is_none() {
+                image.set = self.renderer.bind(self.pixels.as_ref().unwrap_or(&image.resource))?;
             }
         }
-        self.current = Some(scene);
         self.sample = 0;
         self.begun += 1;
         self.begun_at = Instant::now();
@@ -353,7 +365,7 @@ impl Canvas {
     }
 
     fn clear(&mut self, recorder: &mut Recorder) {
-        let color = self.next.as_ref().or(self.current.as_ref()).map_or([0.0; 3], State::background);
+        let color = self.renderer.background().unwrap_or_default();
         for image in self.images.iter_mut().filter(|image| !image.is_cleared) {
             recorder.make_ready(&image.resource, Use::CopyTarget);
             recorder.clear(&image.resource, [color[0], color[1], color[2], 1.0]);

@@ -1,11 +1,20 @@
 //! A picture traced a chunk at a time: in which order, and how much at once. Pure: no Vulkan.
 
-use super::parts::Part;
+use super::course::WORKGROUP;
+use super::tiles::Tile;
+use crate::plan::MOST_PIXELS;
+
+/// What a picture is traced by, pixels along x and y: workgroups below each other, as many as an invocation has pixels
+/// at most.
+const BLOCK: [u32; 2] = [WORKGROUP[0], MOST_PIXELS * WORKGROUP[1]];
 
 /// Goes through a picture's blocks, row by row, in an order that spreads over the whole picture early: what is
 /// not yet traced anew lies between rows that are, and chunks of it cost much the same.
 #[derive(Debug)]
 pub(super) struct Sweep {
+    /// Of the picture, pixels.
+    size: [u32; 2],
+    /// Of blocks.
     columns: u32,
     /// Rows of blocks, in their turn.
     rows: Vec<u32>,
@@ -15,18 +24,21 @@ pub(super) struct Sweep {
 }
 
 impl Sweep {
-    /// With nothing left to do.
-    pub fn new([columns, rows]: [u32; 2]) -> Self {
+    /// Of a picture of so many pixels, with nothing left to do.
+    pub fn new(size: [u32; 2]) -> Self {
+        let [columns, rows] = [0, 1].map(|axis| size[axis].div_ceil(BLOCK[axis]));
         let bits = u32::BITS - rows.saturating_sub(1).leading_zeros();
         let reversed = |row: u32| if bits == 0 { 0 } else { row.reverse_bits() >> (u32::BITS - bits) };
         let rows = (0..1 << bits).map(reversed).filter(|row| *row < rows).collect();
-        Self { columns, rows, next: 0, left: 0 }
+        Self { size, columns, rows, next: 0, left: 0 }
     }
 
+    /// Blocks.
     pub fn total(&self) -> u64 {
         u64::from(self.columns) * self.rows.len() as u64
     }
 
+    /// Blocks.
     pub fn left(&self) -> u64 {
         self.left
     }
@@ -42,23 +54,29 @@ impl Sweep {
         self.left = self.total();
     }
 
-    /// The next `count` blocks, or those that are left.
-    pub fn take(&mut self, count: u64) -> Vec<Part> {
+    /// The pixels of the next `count` blocks, or of those that are left.
+    pub fn take(&mut self, count: u64) -> Vec<Tile> {
         let mut count = count.min(self.left);
         if count == self.total() && count > 0 {
             self.left = 0;
-            return vec![Part { first: [0, 0], groups: [self.columns, self.rows.len() as u32] }];
+            return vec![Tile::whole(self.size)];
         }
         let mut parts = Vec::new();
         while count > 0 {
             let (row, column) = (self.next / u64::from(self.columns), self.next % u64::from(self.columns));
             let taken = count.min(u64::from(self.columns) - column);
-            parts.push(Part { first: [column as u32, self.rows[row as usize]], groups: [taken as u32, 1] });
+            parts.push(self.blocks(column as u32, self.rows[row as usize], taken as u32));
             self.next = (self.next + taken) % self.total();
             self.left -= taken;
             count -= taken;
         }
         parts
+    }
+
+    /// The pixels of so many blocks side by side.
+    fn blocks(&self, column: u32, row: u32, count: u32) -> Tile {
+        let (x, y) = (column * BLOCK[0], row * BLOCK[1]);
+        Tile { x, y, width: (count * BLOCK[0]).min(self.size[0] - x), height: BLOCK[1].min(self.size[1] - y) }
     }
 }
 
@@ -104,32 +122,41 @@ impl Pace {
 
 #[cfg(test)]
 mod tests {
-    use super::super::parts::tests::cover;
     use super::*;
 
+    /// Counts how often the tiles take each pixel.
+    fn count(tiles: &[Tile], seen: &mut [u32], columns: u32) {
+        for &Tile { x, y, width, height } in tiles {
+            for row in y..y + height {
+                (x..x + width).for_each(|column| seen[(row * columns + column) as usize] += 1);
+            }
+        }
+    }
+
     #[test]
-    fn a_sweep_takes_every_block_once_in_chunks_of_any_size() {
-        for (columns, rows) in [(1, 1), (5, 1), (1, 7), (13, 8), (203, 88)] {
-            for count in [1, 2, 7, 64, 1000, u64::MAX] {
-                let mut sweep = Sweep::new([columns, rows]);
-                let mut seen = vec![0; (columns * rows) as usize];
+    fn a_sweep_takes_every_pixel_once_in_chunks_of_any_size() {
+        for [width, height] in [[1, 1], [33, 9], [7, 400], [104, 500], [405, 175]] {
+            for blocks in [1, 2, 7, 64, 1000, u64::MAX] {
+                let mut sweep = Sweep::new([width, height]);
+                let mut seen = vec![0; (width * height) as usize];
                 sweep.start();
                 while sweep.left() > 0 {
-                    cover(&sweep.take(count), &mut seen, columns);
+                    count(&sweep.take(blocks), &mut seen, width);
                 }
-                assert!(seen.iter().all(|&times| times == 1), "{columns}x{rows} by {count}");
-                assert_eq!(sweep.take(count), [], "nothing is left");
+                assert!(seen.iter().all(|&times| times == 1), "{width}x{height} by {blocks}");
+                assert_eq!(sweep.take(blocks), [], "nothing is left");
             }
         }
     }
 
     #[test]
     fn starting_over_all_the_time_still_reaches_every_row() {
-        let mut sweep = Sweep::new([4, 9]);
-        let mut seen = vec![0; 36];
+        let [width, height] = [4 * BLOCK[0], 9 * BLOCK[1]];
+        let mut sweep = Sweep::new([width, height]);
+        let mut seen = vec![0; (width * height) as usize];
         sweep.start();
         for _ in 0..36 {
-            cover(&sweep.take(1), &mut seen, 4);
+            count(&sweep.take(1), &mut seen, width);
             sweep.start_here();
         }
         assert!(seen.iter().all(|&times| times == 1), "{seen:?}");
@@ -137,17 +164,17 @@ mod tests {
 
     #[test]
     fn the_first_rows_spread_over_the_picture() {
-        let mut sweep = Sweep::new([1, 64]);
+        let mut sweep = Sweep::new([BLOCK[0], 64 * BLOCK[1]]);
         sweep.start();
-        let rows: Vec<u32> = sweep.take(4).iter().map(|part| part.first[1]).collect();
+        let rows: Vec<u32> = sweep.take(4).iter().map(|part| part.y / BLOCK[1]).collect();
         assert_eq!(rows, [0, 32, 16, 48]);
     }
 
     #[test]
     fn a_picture_that_fits_is_one_part() {
-        let mut sweep = Sweep::new([13, 8]);
+        let mut sweep = Sweep::new([101, 500]);
         sweep.start();
-        assert_eq!(sweep.take(1000), [Part { first: [0, 0], groups: [13, 8] }]);
+        assert_eq!(sweep.take(1000), [Tile::whole([101, 500])]);
     }
 
     #[test]

@@ -4,14 +4,15 @@ use std::sync::Arc;
 
 use bytemuck::NoUninit;
 
-use super::TracerError;
 use super::parts::Part;
 use super::records::{CoursePushConstants, PrimitiveRecords};
+use super::renderer::{Algorithm, MadeFor, Sample, State, TakenUp, TargetKind};
+use super::{Kernel, Settings, TracerError};
 use crate::gpu::{
-    BindingKind, BindingSet, Buffer, BufferKind, ComputePipeline, Device, Dispatch, GpuError, PipelineDescription,
-    Recorder, Resource, Shader, Use,
+    BindingKind, BindingSet, Buffer, BufferKind, Builds, ComputePipeline, Device, Dispatch, GpuError,
+    PipelineDescription, Recorder, Resource, Shader, Use, shaders,
 };
-use crate::scene::{COURSE_PRIMITIVE_LIMIT, Light, Scene};
+use crate::scene::{COURSE_PRIMITIVE_LIMIT, DEPTH_LIMIT, Light, Scene};
 
 /// `MAX_PRIMITIVES` of `glsl/course/interface.glsl`: the course work's limit, over all kinds together.
 pub const MAX_PRIMITIVES: usize = COURSE_PRIMITIVE_LIMIT;
@@ -27,16 +28,18 @@ pub const WORKGROUP: [u32; 2] = [8, 8];
 /// A scene as the kernel takes it.
 #[derive(Debug, PartialEq)]
 pub(super) struct CourseScene {
-    pub frame: CoursePushConstants,
-    pub primitives: PrimitiveRecords,
+    /// Of the whole picture.
+    frame: CoursePushConstants,
+    primitives: PrimitiveRecords,
+    workgroup: [u32; 2],
 }
 
 impl CourseScene {
-    /// For a picture of `width`×`height` pixels and `max_depth` generations at most.
-    ///
     /// # Errors
-    /// The kernel cannot take the scene.
-    pub fn new(scene: &Scene, max_depth: u32, [width, height]: [u32; 2]) -> Result<Self, TracerError> {
+    /// The kernel cannot take the scene, or not with these settings.
+    fn new(scene: &Scene, settings: &Settings) -> Result<Self, TracerError> {
+        let &Settings { width, height, workgroup, .. } = settings;
+        settings.sampling().check_plain().map_err(TracerError::Refused)?;
         let [light] = &scene.lights[..] else {
             return Err(TracerError::Refused(format!(
                 "the course kernel needs exactly one light, and the scene has {}",
@@ -57,61 +60,135 @@ impl CourseScene {
             )));
         }
         let primitives = PrimitiveRecords::of(scene);
-        Ok(Self {
-            frame: CoursePushConstants::new(scene, light, primitives.counts(), max_depth, width, height),
-            primitives,
-        })
+        let generations = settings.generations(scene);
+        let frame = CoursePushConstants::new(scene, light, primitives.counts(), generations, width, height);
+        Ok(Self { frame, primitives, workgroup })
     }
 }
 
-/// The pipeline with a scene's primitives on the device.
-pub(super) struct CourseKernel {
+impl State for CourseScene {
+    fn samples(&self) -> u32 {
+        1
+    }
+
+    fn background(&self) -> [f32; 3] {
+        self.frame.background
+    }
+}
+
+/// The kernel on a device.
+pub(super) struct CourseRenderer {
+    device: Arc<Device>,
+    builds: Builds,
+    made_for: MadeFor,
+    /// From the first scene on.
+    on_device: Option<OnDevice>,
+}
+
+/// The pipeline with a scene's primitives.
+struct OnDevice {
     pipeline: Arc<ComputePipeline>,
     arrays: [Resource; 4],
     /// What the arrays hold.
     primitives: PrimitiveRecords,
+    /// The most generations that a picture may ask of the pipeline.
     max_depth: u32,
     workgroup: [u32; 2],
 }
 
-impl CourseKernel {
-    /// `max_depth`: the most generations that any frame will ask for.
-    pub fn new(
-        device: &Arc<Device>,
-        shader: &Shader,
-        primitives: PrimitiveRecords,
-        max_depth: u32,
-        workgroup: [u32; 2],
-    ) -> Result<Self, GpuError> {
-        let description = PipelineDescription {
-            shader,
-            bindings: &BINDINGS,
-            push_constant_bytes: size_of::<CoursePushConstants>() as u32,
-            constants: &[max_depth, workgroup[0], workgroup[1]],
+impl CourseRenderer {
+    pub fn new(device: &Arc<Device>, builds: &Builds, made_for: MadeFor) -> Self {
+        Self { device: device.clone(), builds: builds.clone(), made_for, on_device: None }
+    }
+}
+
+impl Algorithm for CourseRenderer {
+    type State = CourseScene;
+
+    fn kernel(&self) -> Kernel {
+        Kernel::Course
+    }
+
+    fn shader(&self) -> &'static Shader {
+        &shaders::COURSE
+    }
+
+    fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError> {
+        if let Some(OnDevice { pipeline, max_depth, workgroup, .. }) = &mut self.on_device {
+            *pipeline = made(&self.device, builds, *max_depth, *workgroup)?;
+        }
+        self.builds = builds.clone();
+        Ok(())
+    }
+
+    fn target(&self) -> TargetKind {
+        TargetKind::Image
+    }
+
+    fn prepare(&self, scene: &Scene, settings: &Settings) -> Result<CourseScene, TracerError> {
+        CourseScene::new(scene, settings)
+    }
+
+    fn take_up(&mut self, recorder: &mut Recorder, state: &CourseScene) -> Result<TakenUp, GpuError> {
+        let &CourseScene { ref frame, ref primitives, workgroup } = state;
+        let max_depth = match self.made_for {
+            MadeFor::Headless => frame.depth as u32,
+            MadeFor::Live => DEPTH_LIMIT,
         };
-        let pipeline = ComputePipeline::new(device, &description)?;
-        Ok(Self { pipeline, arrays: upload(device, &primitives)?, primitives, max_depth, workgroup })
+        let Some(on_device) = &mut self.on_device else {
+            let pipeline = made(&self.device, &self.builds, max_depth, workgroup)?;
+            let (arrays, primitives) = (upload(&self.device, primitives)?, primitives.clone());
+            let uploaded = primitives.arrays().iter().map(|(bytes, _)| bytes.len() as u64).sum();
+            self.on_device = Some(OnDevice { pipeline, arrays, primitives, max_depth, workgroup });
+            return Ok(TakenUp { uploaded, needs_binding: true, dropped: Vec::new() });
+        };
+        let needs_binding = (on_device.max_depth, on_device.workgroup) != (max_depth, workgroup);
+        if needs_binding {
+            on_device.pipeline = made(&self.device, &self.builds, max_depth, workgroup)?;
+            (on_device.max_depth, on_device.workgroup) = (max_depth, workgroup);
+        }
+        Ok(TakenUp { uploaded: on_device.update(recorder, primitives), needs_binding, dropped: Vec::new() })
     }
 
-    /// Whether its pipeline is the one that these need.
-    pub fn fits(&self, max_depth: u32, workgroup: [u32; 2]) -> bool {
-        (self.max_depth, self.workgroup) == (max_depth, workgroup)
+    fn bind(&self, picture: &Resource) -> Result<Option<Arc<BindingSet>>, GpuError> {
+        let bind = |OnDevice { pipeline, arrays, .. }: &OnDevice| {
+            let resources = [picture].into_iter().chain(arrays).cloned().collect::<Vec<_>>();
+            BindingSet::new(pipeline, &resources)
+        };
+        self.on_device.as_ref().map(bind).transpose()
     }
 
-    /// Its pipeline with other primitives.
-    pub fn with(&self, device: &Arc<Device>, primitives: PrimitiveRecords) -> Result<Self, GpuError> {
-        let arrays = upload(device, &primitives)?;
-        Ok(Self { pipeline: self.pipeline.clone(), arrays, primitives, ..*self })
+    fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, state: &CourseScene, sample: Sample) {
+        let Some(OnDevice { pipeline, workgroup, .. }) = &self.on_device else { return };
+        let dispatch = |&part| {
+            let Part { first, groups } = Part::of_pixels(part, *workgroup);
+            Dispatch::flat(pipeline, first, groups)
+        };
+        let parts: Vec<_> = sample.parts.iter().map(dispatch).collect();
+        let frame = state.frame.at_tile(sample.tile.x, sample.tile.y);
+        recorder.dispatch_parts(set, bytemuck::bytes_of(&frame), &parts);
     }
+}
 
-    /// The kernel writing into `picture`.
-    pub fn bind(&self, picture: &Resource) -> Result<Arc<BindingSet>, GpuError> {
-        let resources = [picture.clone()].into_iter().chain(self.arrays.clone()).collect::<Vec<_>>();
-        BindingSet::new(&self.pipeline, &resources)
-    }
+/// The pipeline for pictures of at most so many generations.
+fn made(
+    device: &Arc<Device>,
+    builds: &Builds,
+    max_depth: u32,
+    workgroup: [u32; 2],
+) -> Result<Arc<ComputePipeline>, GpuError> {
+    let description = PipelineDescription {
+        shader: builds.of(&shaders::COURSE),
+        bindings: &BINDINGS,
+        push_constant_bytes: size_of::<CoursePushConstants>() as u32,
+        constants: &[max_depth, workgroup[0], workgroup[1]],
+    };
+    ComputePipeline::new(device, &description)
+}
 
+impl OnDevice {
     /// Puts other primitives in the arrays' place, record by record where they differ; returns the bytes written.
-    pub fn update(&mut self, recorder: &mut Recorder, primitives: &PrimitiveRecords) -> u64 {
+    fn update(&mut self, recorder: &mut Recorder, primitives: &PrimitiveRecords) -> u64 {
         let (old, new) = (self.primitives.arrays(), primitives.arrays());
         let mut written = 0;
         for ((array, old), (new, record_bytes)) in self.arrays.iter().zip(old.map(|(old, _)| old)).zip(new) {
@@ -126,17 +203,6 @@ impl CourseKernel {
         }
         self.primitives = primitives.clone();
         written
-    }
-
-    /// Traces these parts of the picture.
-    pub fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, frame: &CoursePushConstants, parts: &[Part]) {
-        let parts: Vec<_> = parts.iter().map(|part| Dispatch::flat(&self.pipeline, part.first, part.groups)).collect();
-        recorder.dispatch_parts(set, bytemuck::bytes_of(frame), &parts);
-    }
-
-    /// The workgroups that cover so many pixels.
-    pub fn groups(&self, [width, height]: [u32; 2]) -> [u32; 2] {
-        [width.div_ceil(self.workgroup[0]), height.div_ceil(self.workgroup[1])]
     }
 }
 

@@ -5,15 +5,13 @@ mod chunks;
 mod course;
 mod features;
 pub mod hierarchy;
-mod live_kernel;
-mod live_whitted;
 mod parts;
 mod pixels;
 pub mod probe;
 mod proxies;
 mod records;
+mod renderer;
 mod rows;
-mod scene_kernel;
 mod settings;
 mod target;
 mod tiles;
@@ -21,6 +19,7 @@ mod upscale;
 mod whitted;
 mod whitted_pipeline;
 mod whitted_records;
+mod whitted_renderer;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -42,11 +41,11 @@ pub use whitted::{check_precision, scene_bindings, upload_scene};
 pub use whitted_records::{SolidRecords, WhittedPushConstants, WhittedRecords};
 
 use crate::frame::{Frame, FrameError};
-use crate::gpu::{BindingSet, Commands, Device, DeviceDescription, GpuError, Recorder, Texel, Timer, Use};
+use crate::gpu::{BindingSet, Builds, Commands, Device, DeviceDescription, GpuError, Recorder, Texel, Timer, Use};
 use crate::plan::Limits;
 use crate::scene::Scene;
-use scene_kernel::SceneKernel;
-use target::{Target, Upscaling};
+use renderer::{MadeFor, Renderer, Sample, renderer};
+use target::Target;
 use tiles::Tile;
 
 /// Why there is no frame. Each is one line.
@@ -88,7 +87,7 @@ pub fn limits_of(device: &DeviceDescription) -> Limits {
 
 /// A scene on a device, ready to be drawn again and again.
 pub struct Tracer {
-    kernel: SceneKernel,
+    renderer: Box<dyn Renderer>,
     set: Arc<BindingSet>,
     width: u32,
     height: u32,
@@ -103,21 +102,21 @@ impl Tracer {
     /// # Errors
     /// A picture or a scene that the kernel cannot take, or a failing device.
     pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings) -> Result<Self, TracerError> {
-        let &Settings { width, height, max_depth, .. } = settings;
+        let &Settings { width, height, kernel, .. } = settings;
         Frame::check_size(width, height)?;
-        settings.sampling().check().map_err(TracerError::Refused)?;
-        let max_depth = max_depth.unwrap_or(scene.max_depth);
-        let kernel = SceneKernel::new(device, scene, settings, max_depth)?;
-        let target = Target::new(device, &kernel, scene, settings, max_depth)?;
+        let mut commands = Commands::new(device, "trace")?;
+        let mut renderer = renderer(device, kernel, &Builds::default(), MadeFor::Headless)?;
+        bring(&mut commands, &mut *renderer, scene, settings)?;
+        let target = Target::new(device, renderer.target(), scene, settings)?;
         Ok(Self {
-            set: kernel.bind(&target.traced)?,
-            kernel,
+            set: bind(&*renderer, &target)?,
+            renderer,
             width,
             height,
             samples: settings.samples,
             target,
             timer: Timer::new(device, "trace")?,
-            commands: Commands::new(device, "trace")?,
+            commands,
             device: device.clone(),
         })
     }
@@ -130,13 +129,17 @@ impl Tracer {
     /// # Panics
     /// The settings have another size.
     pub fn set_scene(&mut self, scene: &Scene, settings: &Settings) -> Result<(), TracerError> {
-        let &Settings { width, height, max_depth, .. } = settings;
+        let &Settings { width, height, kernel, .. } = settings;
         assert_eq!((width, height), (self.width, self.height), "the settings are of another size");
-        settings.sampling().check().map_err(TracerError::Refused)?;
-        let max_depth = max_depth.unwrap_or(scene.max_depth);
-        self.kernel.set_scene(&self.device, scene, settings, max_depth)?;
-        self.target.set_scene(&self.device, &self.kernel, scene, settings, max_depth)?;
-        self.set = self.kernel.bind(&self.target.traced)?;
+        if kernel == self.renderer.kernel() {
+            bring(&mut self.commands, &mut *self.renderer, scene, settings)?;
+        } else {
+            let mut other = renderer(&self.device, kernel, &Builds::default(), MadeFor::Headless)?;
+            bring(&mut self.commands, &mut *other, scene, settings)?;
+            self.renderer = other;
+        }
+        self.target.set_scene(&self.device, self.renderer.target(), scene, settings)?;
+        self.set = bind(&*self.renderer, &self.target)?;
         self.samples = settings.samples;
         Ok(())
     }
@@ -197,11 +200,11 @@ impl Tracer {
         Ok(gpu_time_ns)
     }
 
-    /// See [`SceneKernel::trace_one_by_one`].
-    fn trace_one_by_one(&mut self) -> Result<bool, GpuError> {
-        let is_other = self.kernel.trace_one_by_one(&self.device)?;
+    /// Tells whether pixels were traced otherwise before.
+    fn trace_one_by_one(&mut self) -> Result<bool, TracerError> {
+        let is_other = self.renderer.trace_one_by_one()?;
         if is_other {
-            self.set = self.kernel.bind(&self.target.traced)?;
+            self.set = bind(&*self.renderer, &self.target)?;
         }
         Ok(is_other)
     }
@@ -221,14 +224,14 @@ impl Tracer {
         Ok(())
     }
 
-    /// From now on [`Tracer::render`] draws what each colour of the accurate kernel loses by rounding to `f32`, or the
-    /// colours again: an `f64` picture is the sum of the two, good to 48 bits. Other kernels lose nothing.
+    /// From now on [`Tracer::render`] draws what each colour of an `f64` kernel loses by rounding to `f32`, or the
+    /// colours again: the picture is the sum of the two, good to 48 bits. Other kernels lose nothing.
     ///
     /// # Panics
     /// The picture is not of one sample a pixel at scale 1: means and what lies between pixels are rounded besides.
     pub fn draw_remainder(&mut self, remainder: bool) {
         assert!(self.samples == 1 && self.target.upscaling.is_none(), "only of one sample a pixel at scale 1");
-        self.kernel.write_remainder(remainder);
+        self.renderer.write_remainder(remainder);
     }
 
     /// Linear RGB, row by row from the top: of the `f64` kernel good to 48 bits, the colours and what they lose.
@@ -244,7 +247,7 @@ impl Tracer {
             for (sum, pixel) in sum.iter_mut().zip(frame.pixels()) {
                 *sum += DVec3::from_array(pixel.map(f64::from));
             }
-            if !self.kernel.has_remainder() {
+            if !self.renderer.has_remainder() {
                 break;
             }
         }
@@ -255,9 +258,9 @@ impl Tracer {
     /// Traces one sample of each pixel of a tile and, with the last one, copies the tile to where the host reads it;
     /// returns the GPU time of the tracing, and of the upscaling where there is any.
     fn trace(&mut self, tile: Tile, sample: u32) -> Result<Option<u64>, GpuError> {
-        let Self { kernel, set, target, timer, commands, samples, .. } = self;
+        let Self { renderer, set, target, timer, commands, samples, .. } = self;
         let Target { traced, upscaling, read_back, .. } = target;
-        let traced_tile = upscaling.as_ref().map_or(tile, |upscaling| upscaling.upscaler.traced_tile(tile));
+        let traced_tile = upscaling.as_ref().map_or(tile, |(upscaling, _)| upscaling.upscaler.traced_tile(tile));
         let is_last = sample + 1 == *samples;
         let record = |recorder: &mut Recorder| {
             if sample == 0 {
@@ -268,12 +271,13 @@ impl Tracer {
             recorder.labelled("trace", |recorder| {
                 recorder.make_ready(traced, Use::ShaderWrite);
                 timer.iter().for_each(|timer| recorder.start(timer));
-                kernel.record(recorder, set, traced_tile, sample);
-                if let Some(Upscaling { upscaler, set, source, picture }) = upscaling.as_ref().filter(|_| is_last) {
+                let parts = [Tile { x: 0, y: 0, ..traced_tile }];
+                renderer.record(recorder, set, Sample { index: sample, tile: traced_tile, parts: &parts });
+                if let Some((upscaling, copy)) = upscaling.as_ref().filter(|_| is_last) {
                     recorder.make_ready(traced, Use::CopySource);
-                    recorder.make_ready(source, Use::CopyTarget);
-                    recorder.copy_to_image(traced, source, traced_tile.width, traced_tile.height);
-                    upscaler.record(recorder, set, [picture, source], tile);
+                    recorder.make_ready(copy, Use::CopyTarget);
+                    recorder.copy_to_image(traced, copy, traced_tile.width, traced_tile.height);
+                    upscaling.record(recorder, 0, tile);
                 }
                 timer.iter().for_each(|timer| recorder.stop(timer));
                 Ok(())
@@ -281,7 +285,7 @@ impl Tracer {
             if !is_last {
                 return Ok(());
             }
-            let picture = upscaling.as_ref().map_or(&*traced, |upscaling| &upscaling.picture);
+            let picture = upscaling.as_ref().map_or(&*traced, |(upscaling, _)| &upscaling.picture);
             recorder.labelled("read back", |recorder| {
                 recorder.make_ready(picture, Use::CopySource);
                 recorder.make_ready(read_back, Use::CopyTarget);
@@ -297,4 +301,22 @@ impl Tracer {
         }
         timer.as_deref().map(Timer::elapsed_ns).transpose()
     }
+}
+
+/// Brings a scene to the device, and waits until it is there.
+fn bring(
+    commands: &mut Commands,
+    renderer: &mut dyn Renderer,
+    scene: &Scene,
+    settings: &Settings,
+) -> Result<(), TracerError> {
+    settings.sampling().check().map_err(TracerError::Refused)?;
+    renderer.prepare(scene, settings, true)?;
+    Ok(commands.run(|recorder| renderer.take_up(recorder).map(drop))?)
+}
+
+/// The renderer drawing a tile.
+fn bind(renderer: &dyn Renderer, target: &Target) -> Result<Arc<BindingSet>, TracerError> {
+    let set = renderer.bind(&target.traced)?;
+    set.ok_or_else(|| TracerError::Refused("no scene was brought to the device".to_owned()))
 }

@@ -1,5 +1,7 @@
 //! Parts of a picture, in workgroups or blocks of them. Pure: no Vulkan.
 
+use super::tiles::Tile;
+
 /// Workgroups of a picture, or blocks of them: `groups` along x and y, from `first` on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Part {
@@ -15,6 +17,11 @@ pub struct Grid {
 }
 
 impl Part {
+    /// Workgroups of so many pixels that cover an area, which begins with one of them.
+    pub fn of_pixels(Tile { x, y, width, height }: Tile, group: [u32; 2]) -> Self {
+        Self { first: [x / group[0], y / group[1]], groups: [width.div_ceil(group[0]), height.div_ceil(group[1])] }
+    }
+
     /// What of it lies in `area`, and the rest.
     pub fn cut(self, area: Self) -> (Option<Self>, Vec<Self>) {
         let end = |part: Self, axis: usize| part.first[axis] + part.groups[axis];
@@ -54,11 +61,11 @@ impl Part {
 }
 
 #[cfg(test)]
-pub mod tests {
+mod tests {
     use super::*;
 
     /// Counts in rows of so many columns how often parts take each.
-    pub fn cover(parts: &[Part], seen: &mut [u32], columns: u32) {
+    fn cover(parts: &[Part], seen: &mut [u32], columns: u32) {
         for Part { first: [x, y], groups: [width, height] } in parts {
             for row in *y..y + height {
                 for column in *x..x + width {

@@ -3,6 +3,7 @@
 use super::course::WORKGROUP;
 use crate::algorithm::Kernel;
 use crate::plan::{Approximations, Plan};
+use crate::scene::Scene;
 use crate::settings::sampling::Sampling;
 
 /// How to render, apart from the scene.
@@ -29,7 +30,7 @@ pub struct Settings {
     /// is tested with it.
     pub pixels: Option<u32>,
     /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See
-    /// [`sampling`](super::sampling).
+    /// [`Sampling`].
     pub samples: u32,
     /// Size of the picture that is traced against the one asked for, to which it is brought by bilinear interpolation;
     /// 1/4 to 1. The course kernel takes 1.
@@ -68,6 +69,11 @@ impl Settings {
             without_boxes: plan.is_without_boxes(),
             ..Self::new(width, height)
         }
+    }
+
+    /// The most that a path of the scene goes through.
+    pub(super) fn generations(&self, scene: &Scene) -> u32 {
+        self.max_depth.unwrap_or(scene.max_depth)
     }
 
     pub(super) fn sampling(&self) -> Sampling {

@@ -3,21 +3,22 @@
 use std::sync::Arc;
 
 use super::pixels::largest_side;
-use super::scene_kernel::SceneKernel;
+use super::renderer::TargetKind;
 use super::tiles::{Tile, tiles};
-use super::upscale::Upscaler;
+use super::upscale::{Upscaler, Upscaling};
 use super::{Kernel, Settings, TracerError};
-use crate::gpu::{BindingSet, Buffer, BufferKind, Device, PIXEL_BYTES, Resource, StorageImage};
+use crate::gpu::{Buffer, BufferKind, Device, PIXEL_BYTES, Resource};
 use crate::plan::{tile_side, tried_under_boxes};
 use crate::scene::Scene;
 
 pub(super) struct Target {
     /// Of the picture asked for.
     pub tiles: Vec<Tile>,
-    /// A tile as it is traced: the kernel's [picture](SceneKernel::picture).
+    /// A tile as it is traced.
     pub traced: Resource,
-    /// Where that is smaller than the tile.
-    pub upscaling: Option<Upscaling>,
+    kind: TargetKind,
+    /// Where that is smaller than the tile: from a copy of it.
+    pub upscaling: Option<(Upscaling, Resource)>,
     pub pixels: Arc<Buffer>,
     /// The same.
     pub read_back: Resource,
@@ -26,76 +27,61 @@ pub(super) struct Target {
     traced_side: u32,
 }
 
-/// A tile of the picture asked for, made from the traced one.
-pub(super) struct Upscaling {
-    pub upscaler: Upscaler,
-    pub set: Arc<BindingSet>,
-    /// The traced tile, copied.
-    pub source: Resource,
-    pub picture: Resource,
-}
-
 impl Target {
     pub fn new(
         device: &Arc<Device>,
-        kernel: &SceneKernel,
+        kind: TargetKind,
         scene: &Scene,
         settings: &Settings,
-        max_depth: u32,
     ) -> Result<Self, TracerError> {
         let &Settings { width, height, scale, .. } = settings;
         let size = [width, height];
         // A tile brought to its size may need the neighbours of its edge.
         let largest = largest_side(device.description()) - if scale < 1.0 { 2 } else { 0 };
-        let traced_side = traced_side(scene, settings, max_depth, largest);
+        let traced_side = traced_side(scene, settings, largest);
         let tile_side = shown_side(traced_side, scale, device);
         let tile = size.map(|side| side.min(tile_side));
-        let image = |name, [width, height]: [u32; 2]| {
-            Ok::<_, TracerError>(Resource::from(&Arc::new(StorageImage::new(device, name, width, height)?)))
-        };
         let (traced, upscaling) = if scale < 1.0 {
             let upscaler = Upscaler::new(device, size, settings.sampling().traced_size(size))?;
             let traced_tile = upscaler.most_traced(tile);
-            let (source, picture) = (image("traced tile", traced_tile)?, image("picture", tile)?);
-            let set = upscaler.bind(&picture, &source)?;
-            let traced = kernel.picture(device, "traced", traced_tile)?;
-            (traced, Some(Upscaling { upscaler, set, source, picture }))
+            let copy = TargetKind::Image.make(device, "traced tile", traced_tile)?;
+            let upscaling = Upscaling::new(device, upscaler, tile, [copy.clone()])?;
+            (kind.make(device, "traced", traced_tile)?, Some((upscaling, copy)))
         } else {
-            (kernel.picture(device, "picture", tile)?, None)
+            (kind.make(device, "picture", tile)?, None)
         };
         let tile_bytes = u64::from(tile[0]) * u64::from(tile[1]) * PIXEL_BYTES;
         let pixels = Arc::new(Buffer::new(device, "pixels", BufferKind::Readback, tile_bytes)?);
         let (tiles, read_back) = (tiles(width, height, tile_side), Resource::from(&pixels));
-        Ok(Self { tiles, traced, upscaling, pixels, read_back, scale, traced_side })
+        Ok(Self { tiles, traced, kind, upscaling, pixels, read_back, scale, traced_side })
     }
 
     /// For another scene or other settings of the same size; what is there is kept where it fits.
     pub fn set_scene(
         &mut self,
         device: &Arc<Device>,
-        kernel: &SceneKernel,
+        kind: TargetKind,
         scene: &Scene,
         settings: &Settings,
-        max_depth: u32,
     ) -> Result<(), TracerError> {
         let &Settings { width, height, scale, .. } = settings;
-        if scale == self.scale && kernel.draws_into(&self.traced) {
-            let traced_side = traced_side(scene, settings, max_depth, self.traced_side);
+        if scale == self.scale && kind == self.kind {
+            let traced_side = traced_side(scene, settings, self.traced_side);
             self.tiles = tiles(width, height, shown_side(traced_side, scale, device));
         } else {
-            *self = Self::new(device, kernel, scene, settings, max_depth)?;
+            *self = Self::new(device, kind, scene, settings)?;
         }
         Ok(())
     }
 }
 
 /// Of what one submission traces, pixels: at most `limit`.
-fn traced_side(scene: &Scene, settings: &Settings, max_depth: u32, limit: u32) -> u32 {
+fn traced_side(scene: &Scene, settings: &Settings, limit: u32) -> u32 {
     let max_tile_side = settings.max_tile_side.clamp(1, limit);
     let solids = scene.primitives.len();
     let has_boxes = settings.kernel != Kernel::Course && !settings.without_boxes;
     let tried = if has_boxes { tried_under_boxes(solids) } else { solids };
-    tile_side(max_tile_side, tried, scene.lights.len(), max_depth)
+    tile_side(max_tile_side, tried, scene.lights.len(), settings.generations(scene))
 }
 
 /// Of the tile made from that, but for the neighbours that its edge needs.

@@ -17,6 +17,11 @@ pub(super) fn tiles(width: u32, height: u32, side: u32) -> Vec<Tile> {
 }
 
 impl Tile {
+    /// All of a picture.
+    pub fn whole([width, height]: [u32; 2]) -> Self {
+        Self { x: 0, y: 0, width, height }
+    }
+
     /// Puts `pixels`, the tile's rows as RGBA, in their place in `frame`; alpha is dropped.
     pub fn copy_pixels(&self, pixels: &[[f32; 4]], frame: &mut Frame) {
         let (tile_width, frame_width) = (self.width as usize, frame.width() as usize);

@@ -7,7 +7,8 @@ use bytemuck::{Pod, Zeroable};
 use super::course::WORKGROUP;
 use super::tiles::Tile;
 use crate::gpu::{
-    BindingKind, BindingSet, ComputePipeline, Device, GpuError, PipelineDescription, Recorder, Resource, Use, shaders,
+    BindingKind, BindingSet, ComputePipeline, Device, GpuError, PipelineDescription, Recorder, Resource, StorageImage,
+    Use, shaders,
 };
 
 /// `Push` of the kernel; pixels.
@@ -39,14 +40,8 @@ impl Upscaler {
     }
 
     /// From the picture `traced` into `picture`, or from tiles into tiles.
-    pub fn bind(&self, picture: &Resource, traced: &Resource) -> Result<Arc<BindingSet>, GpuError> {
+    fn bind(&self, picture: &Resource, traced: &Resource) -> Result<Arc<BindingSet>, GpuError> {
         BindingSet::new(&self.pipeline, &[picture.clone(), traced.clone()])
-    }
-
-    /// All of the picture.
-    pub fn whole(&self) -> Tile {
-        let [width, height] = self.size;
-        Tile { x: 0, y: 0, width, height }
     }
 
     /// The part of the smaller picture that a tile is made from.
@@ -63,13 +58,7 @@ impl Upscaler {
 
     /// Makes a tile from its [part](Upscaler::traced_tile) of the smaller picture, of which the top left pixel lies in
     /// that of the image `traced`.
-    pub fn record(
-        &self,
-        recorder: &mut Recorder,
-        set: &Arc<BindingSet>,
-        [picture, traced]: [&Resource; 2],
-        tile: Tile,
-    ) {
+    fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, [picture, traced]: [&Resource; 2], tile: Tile) {
         let part = self.traced_tile(tile);
         let frame = UpscalePushConstants {
             size: self.size,
@@ -81,6 +70,35 @@ impl Upscaler {
         recorder.make_ready(picture, Use::ShaderWrite);
         let groups = [tile.width.div_ceil(WORKGROUP[0]), tile.height.div_ceil(WORKGROUP[1]), 1];
         recorder.dispatch(&self.pipeline, set, bytemuck::bytes_of(&frame), groups);
+    }
+}
+
+/// A picture, or a tile of one, and the smaller images that it can be made from.
+pub(super) struct Upscaling {
+    pub upscaler: Upscaler,
+    pub picture: Resource,
+    sources: Vec<(Resource, Arc<BindingSet>)>,
+}
+
+impl Upscaling {
+    /// `size` of `picture` or of its largest tile, pixels.
+    pub fn new(
+        device: &Arc<Device>,
+        upscaler: Upscaler,
+        [width, height]: [u32; 2],
+        sources: impl IntoIterator<Item = Resource>,
+    ) -> Result<Self, GpuError> {
+        let picture = Resource::from(&Arc::new(StorageImage::new(device, "picture", width, height)?));
+        let bound = |source: Resource| Ok((source.clone(), upscaler.bind(&picture, &source)?));
+        let sources = sources.into_iter().map(bound).collect::<Result<_, GpuError>>()?;
+        Ok(Self { upscaler, picture, sources })
+    }
+
+    /// Makes a tile of the picture from the source with this index, which holds the
+    /// [part](Upscaler::traced_tile) needed for it.
+    pub fn record(&self, recorder: &mut Recorder, source: usize, tile: Tile) {
+        let (source, set) = &self.sources[source];
+        self.upscaler.record(recorder, set, [&self.picture, source], tile);
     }
 }
 

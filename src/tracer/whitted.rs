@@ -5,11 +5,10 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use super::whitted_records::{WhittedPushConstants, WhittedRecords};
-use super::{Kernel, TracerError};
+use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingKind, Buffer, BufferKind, Device, GpuError, Resource, Texel};
-use crate::plan::{Approximations, Area, Features, MOST_PIXELS, Precision, scene_space};
+use crate::plan::{Area, Features, MOST_PIXELS, Precision};
 use crate::scene::Scene;
-use crate::settings::sampling::Sampling;
 
 impl Precision {
     /// A vector and its error as the nearest vector of this precision and what is missing.
@@ -158,6 +157,7 @@ pub(super) struct WhittedScene {
     pub features: Features,
     /// Of the whole picture in one tile.
     pub view_uniforms: ViewUniforms,
+    pub workgroup: [u32; 2],
     /// Of each pixel.
     pub samples: u32,
     /// Linear RGB.
@@ -165,43 +165,30 @@ pub(super) struct WhittedScene {
 }
 
 impl WhittedScene {
-    /// For a picture of `width`×`height` pixels and `max_depth` generations at most, pixel by pixel.
-    ///
-    /// # Errors
-    /// The device lacks the kernel's precision, or lets no kernel see so many primitives.
-    pub fn new(
-        device: &Device,
-        scene: &Scene,
-        kernel: Kernel,
-        approximations: Approximations,
-        max_depth: u32,
-        size: [u32; 2],
-    ) -> Result<Self, TracerError> {
-        check_precision(device, kernel.precision())?;
-        let records = WhittedRecords::of(scene, scene_space(scene, kernel), kernel.precision(), size);
-        Self::with(device, scene, records, kernel, approximations, max_depth, size)
-    }
-
-    /// With the scene's records for a picture of that size, pixel by pixel.
+    /// With the scene's records for a picture of the settings' size, and so many pixels an invocation, where those come
+    /// in packets.
     ///
     /// # Errors
     /// The device lets no kernel see so many primitives.
-    pub fn with(
+    pub fn new(
         device: &Device,
         scene: &Scene,
         records: WhittedRecords,
-        kernel: Kernel,
-        approximations: Approximations,
-        max_depth: u32,
-        [width, height]: [u32; 2],
+        settings: &Settings,
+        pixels: u32,
     ) -> Result<Self, TracerError> {
+        let &Settings { width, height, kernel, approximations, samples, workgroup, .. } = settings;
         check_size(device, &records, kernel.precision())?;
+        let generations = settings.generations(scene);
+        // What the window shows stays the same to the last bit at any scale.
+        let [traced_width, traced_height] = settings.sampling().traced_size([width, height]);
+        let traced_size = traced_width | traced_height << 16;
         let frame = WhittedPushConstants {
             counts: records.solids.counts,
             first_proxies: records.solids.first_proxies,
             tile_origin: 0,
-            image_size: width | height << 16,
-            depth: max_depth,
+            image_size: traced_size,
+            depth: generations,
             light_count: records.light_count,
             reach: records.solids.frame.reach,
             writes_remainder: 0,
@@ -210,39 +197,19 @@ impl WhittedScene {
             sample_place: [0, 0],
             samples_before: 0,
             sample_weight: 1.0,
-            tile_size: width | height << 16,
+            tile_size: traced_size,
             light_sphere_count: records.light_sphere_count,
         };
-        let features = Features::of(&records, &approximations, max_depth);
+        let exact = Features::of(&records, &approximations, generations);
+        let levels = if settings.without_boxes { [0; 4] } else { exact.levels };
+        let features = Features { levels, samples: samples > 1, pixels: pixels.clamp(1, MOST_PIXELS), ..exact };
         let background = scene.background.as_vec3().to_array();
         // No coordinate is larger than twice the reach: no two places are farther apart than 4 * sqrt(3) of that.
         let farthest = 7.0 * f64::from(records.solids.frame.reach) / records.solids.frame.scale;
         let light_spheres = Area::of_light_spheres(scene, f64::from(width) / f64::from(height), farthest);
         let view_uniforms =
             ViewUniforms { frame, light_spheres: light_spheres.filter(|_| approximations.light_spheres) };
-        Ok(Self { kernel, records, features, view_uniforms, samples: 1, background })
-    }
-
-    /// Traced so for a picture of `size` pixels: what the window shows stays the same to the last bit.
-    pub fn sampled(mut self, sampling: Sampling, size: [u32; 2]) -> Self {
-        let [width, height] = sampling.traced_size(size);
-        self.view_uniforms.frame.image_size = width | height << 16;
-        self.view_uniforms.frame.tile_size = self.view_uniforms.frame.image_size;
-        self.samples = sampling.samples;
-        self.features.samples = sampling.samples > 1;
-        self
-    }
-
-    /// With so many pixels an invocation, where those come in packets.
-    pub fn with_pixels_per_invocation(mut self, pixels: u32) -> Self {
-        self.features.pixels = pixels.clamp(1, MOST_PIXELS);
-        self
-    }
-
-    /// For [`Settings::without_boxes`](super::Settings).
-    pub fn without_boxes(mut self) -> Self {
-        self.features.levels = [0; 4];
-        self
+        Ok(Self { kernel, records, features, view_uniforms, workgroup, samples, background })
     }
 
     pub fn upload(&self, device: &Arc<Device>) -> Result<Vec<Resource>, GpuError> {

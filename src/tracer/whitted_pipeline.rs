@@ -5,6 +5,8 @@ use std::thread::available_parallelism;
 
 use super::Kernel;
 use super::parts::{Grid, Part};
+use super::renderer::Sample;
+use super::tiles::Tile;
 use super::whitted::{LightSpheres, ViewUniforms, WhittedScene, scene_bindings, unpacked};
 use super::whitted_records::WhittedPushConstants;
 use crate::gpu::{
@@ -57,20 +59,9 @@ fn threads(device: &Device) -> u32 {
 }
 
 impl WhittedPipeline {
-    pub fn new(
-        device: &Arc<Device>,
-        builds: &Builds,
-        scene: &WhittedScene,
-        workgroup: [u32; 2],
-    ) -> Result<Self, GpuError> {
-        Self::made(
-            device,
-            builds,
-            scene.kernel,
-            scene.features,
-            scene.view_uniforms.where_light_spheres_are(),
-            workgroup,
-        )
+    pub fn new(device: &Arc<Device>, builds: &Builds, scene: &WhittedScene) -> Result<Self, GpuError> {
+        let light_spheres = scene.view_uniforms.where_light_spheres_are();
+        Self::made(device, builds, scene.kernel, scene.features, light_spheres, scene.workgroup)
     }
 
     fn made(
@@ -124,19 +115,19 @@ impl WhittedPipeline {
     }
 
     /// Whether it draws that scene too, as one made for it would.
-    pub fn fits(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
-        self.serves(scene, workgroup) && self.features.pixels == scene.features.pixels
+    pub fn fits(&self, scene: &WhittedScene) -> bool {
+        self.serves(scene) && self.features.pixels == scene.features.pixels
     }
 
     /// Whether it draws that scene too, if perhaps by fewer pixels per invocation.
-    pub fn serves(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
-        self.pixels_are_served(scene, workgroup) && self.light_spheres_are_served(scene)
+    pub fn serves(&self, scene: &WhittedScene) -> bool {
+        self.pixels_are_served(scene) && self.light_spheres_are_served(scene)
     }
 
-    fn pixels_are_served(&self, scene: &WhittedScene, workgroup: [u32; 2]) -> bool {
+    fn pixels_are_served(&self, scene: &WhittedScene) -> bool {
         let pixels = self.features.pixels;
         let own = (self.kernel, self.features, self.workgroup);
-        pixels <= scene.features.pixels && own == (scene.kernel, Features { pixels, ..scene.features }, workgroup)
+        pixels <= scene.features.pixels && own == (scene.kernel, Features { pixels, ..scene.features }, scene.workgroup)
     }
 
     fn light_spheres_are_served(&self, scene: &WhittedScene) -> bool {
@@ -145,11 +136,11 @@ impl WhittedPipeline {
 
     /// In its place, for a scene that it does not fit. Where light spheres come in sight and go out of it, that is once
     /// for all.
-    pub fn replaced(&self, device: &Arc<Device>, scene: &WhittedScene, workgroup: [u32; 2]) -> Result<Self, GpuError> {
-        let is_seen_otherwise = self.pixels_are_served(scene, workgroup) && !self.light_spheres_are_served(scene);
+    pub fn replaced(&self, device: &Arc<Device>, scene: &WhittedScene) -> Result<Self, GpuError> {
+        let is_seen_otherwise = self.pixels_are_served(scene) && !self.light_spheres_are_served(scene);
         let light_spheres =
             if is_seen_otherwise { LightSpheres::Somewhere } else { scene.view_uniforms.where_light_spheres_are() };
-        Self::made(device, &self.builds, scene.kernel, scene.features, light_spheres, workgroup)
+        Self::made(device, &self.builds, scene.kernel, scene.features, light_spheres, scene.workgroup)
     }
 
     /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.
@@ -158,18 +149,25 @@ impl WhittedPipeline {
         BindingSet::new(&self.with_light_spheres, &resources)
     }
 
-    /// Traces these parts of the picture: the sample with this index of each pixel, the ones before being there.
+    /// Traces one sample of each pixel of parts of a tile.
     pub fn record(
         &self,
         recorder: &mut Recorder,
         set: &Arc<BindingSet>,
         view_uniforms: &ViewUniforms,
-        sample: u32,
-        parts: &[Part],
+        Sample { index, tile, parts }: Sample,
     ) {
-        let ViewUniforms { frame, light_spheres } = view_uniforms;
-        let light_spheres = light_spheres.map(|area| self.part_of(area, frame));
-        let cut = |part: &Part| light_spheres.map_or_else(|| (None, vec![*part]), |area| part.cut(area));
+        let &ViewUniforms { frame, light_spheres } = view_uniforms;
+        let frame = WhittedPushConstants {
+            tile_origin: tile.x | tile.y << 16,
+            tile_size: tile.width | tile.height << 16,
+            ..frame.at_sample(index)
+        };
+        let light_spheres = light_spheres.map(|area| self.part_of(area, &frame));
+        let cut = |&part: &Tile| {
+            let part = Part::of_pixels(part, self.group());
+            light_spheres.map_or_else(|| (None, vec![part]), |area| part.cut(area))
+        };
         let (with_light_spheres, others): (Vec<_>, Vec<_>) = parts.iter().map(cut).unzip();
         let with_light_spheres = with_light_spheres.into_iter().flatten().map(|part| (part, &self.with_light_spheres));
         let others = others.into_iter().flatten().map(|part| (part, &self.without_light_spheres));
@@ -178,21 +176,21 @@ impl WhittedPipeline {
             grids.map(move |Grid { first, groups }| Dispatch { pipeline, first, groups })
         };
         let dispatches: Vec<_> = with_light_spheres.chain(others).flat_map(dispatches).collect();
-        recorder.dispatch_parts(set, bytemuck::bytes_of(&frame.at_sample(sample)), &dispatches);
+        recorder.dispatch_parts(set, bytemuck::bytes_of(&frame), &dispatches);
+    }
+
+    /// What a workgroup traces, pixels.
+    fn group(&self) -> [u32; 2] {
+        [self.workgroup[0], self.workgroup[1] * self.pixels]
     }
 
     /// The workgroups of a tile that an area of the picture touches, and perhaps some beyond it.
     fn part_of(&self, area: Area, frame: &WhittedPushConstants) -> Part {
         let pixels = area.pixels(unpacked(frame.image_size));
         let tile = unpacked(frame.tile_origin);
-        let group = [self.workgroup[0], self.workgroup[1] * self.pixels];
+        let group = self.group();
         let first = [0, 1].map(|axis| pixels[axis].start.saturating_sub(tile[axis]) / group[axis]);
         let end = [0, 1].map(|axis| pixels[axis].end.saturating_sub(tile[axis]).div_ceil(group[axis]));
         Part { first, groups: [0, 1].map(|axis| end[axis].saturating_sub(first[axis])) }
-    }
-
-    /// The workgroups that cover so many pixels.
-    pub fn groups(&self, [width, height]: [u32; 2]) -> [u32; 2] {
-        [width.div_ceil(self.workgroup[0]), height.div_ceil(self.workgroup[1] * self.pixels)]
     }
 }

@@ -1,19 +1,21 @@
 //! Which kernel a [`Canvas`] traces by, and from which build.
 
-use super::super::live_kernel::LiveKernel;
+use super::super::renderer::{MadeFor, renderer};
 use super::super::{Kernel, TracerError};
 use super::Canvas;
-use crate::gpu::{Builds, Shader};
+use crate::gpu::Builds;
+use crate::gpu::Shader;
 
 impl Canvas {
     /// A kernel from the next chunk on; where it is another one, which is told, the picture is to be
     /// [asked for](Canvas::show) again.
-    pub fn use_kernel(&mut self, kind: Kernel) -> Result<bool, TracerError> {
-        if kind == self.kind {
+    pub fn use_kernel(&mut self, kernel: Kernel) -> Result<bool, TracerError> {
+        if kernel == self.renderer.kernel() {
             return Ok(false);
         }
-        let kernel = LiveKernel::new(&self.device, kind, &self.builds)?;
-        self.replace_kernel(kernel, kind);
+        self.renderer = renderer(&self.device, kernel, &self.builds, MadeFor::Live)?;
+        self.dropped.extend(self.pixels.take());
+        self.begin_anew();
         Ok(true)
     }
 
@@ -23,12 +25,12 @@ impl Canvas {
     /// # Errors
     /// The device does not take it; the last build goes on.
     pub fn replace_shader(&mut self, build: Shader) -> Result<(), TracerError> {
-        let own = self.kernel.shader();
+        let own = self.renderer.shader();
         let is_used = own.name == build.name && self.builds.of(own).spirv() != build.spirv();
         let mut builds = self.builds.clone();
         builds.put(build);
         if is_used {
-            self.kernel.rebuild(&self.device, &builds)?;
+            self.renderer.rebuild(&builds)?;
             self.begin_anew();
         }
         self.builds = builds;
@@ -38,12 +40,5 @@ impl Canvas {
     /// What kernels are made from, in the place of the program's own.
     pub fn builds(&self) -> &Builds {
         &self.builds
-    }
-
-    fn replace_kernel(&mut self, kernel: LiveKernel, kind: Kernel) {
-        self.kernel = kernel;
-        self.kind = kind;
-        self.dropped.extend(self.pixels.take());
-        self.begin_anew();
     }
 }

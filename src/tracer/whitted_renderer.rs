@@ -6,23 +6,22 @@ use std::sync::Arc;
 
 use bytemuck::NoUninit;
 
-use super::course::WORKGROUP;
-use super::pixels::check_picture;
+use super::renderer::{Algorithm, MadeFor, Sample, State, TakenUp, TargetKind};
 use super::whitted::{WhittedScene, check_precision};
 use super::whitted_pipeline::{WhittedPipeline, shader_of};
 use super::whitted_records::{SolidRecords, WhittedRecords};
-use super::{Kernel, Settings, TracerError};
+use super::{Kernel, Settings, TracerError, WORKGROUP};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Texel, Use};
-use crate::plan::{Precision, TraversalCost, scene_space_within};
+use crate::plan::{MOST_PIXELS, Precision, TraversalCost, scene_space_within};
 use crate::scene::{Extent, Primitive, Scene};
-use crate::settings::sampling::Sampling;
 
-/// The kernel with the state that it began last.
-pub(super) struct LiveWhitted {
+/// The kernel with the scene that it took up last.
+pub(super) struct WhittedRenderer {
     kernel: Kernel,
     device: Arc<Device>,
     builds: Builds,
-    begun: Option<OnDevice>,
+    made_for: MadeFor,
+    on_device: Option<OnDevice>,
 }
 
 /// A state whose arrays the device has.
@@ -47,20 +46,9 @@ impl Primitives {
     }
 }
 
-/// What it took to begin a picture of another state.
-#[derive(Default)]
-pub(super) struct Begun {
-    /// Bytes.
-    pub uploaded: u64,
-    /// Whether binding sets made before are out of date.
-    pub needs_binding: bool,
-    /// Used no more.
-    pub dropped: Vec<Resource>,
-}
-
 /// A state of the scene.
 pub(super) struct WhittedState {
-    pub scene: WhittedScene,
+    scene: WhittedScene,
     primitives: Arc<Primitives>,
 }
 
@@ -71,67 +59,103 @@ impl PartialEq for WhittedState {
     }
 }
 
-impl LiveWhitted {
-    pub fn new(device: &Arc<Device>, kernel: Kernel, builds: &Builds) -> Self {
-        Self { kernel, device: device.clone(), builds: builds.clone(), begun: None }
+impl State for WhittedState {
+    fn samples(&self) -> u32 {
+        self.scene.samples
     }
 
-    /// The program's own that is built into it, or that a build took the place of.
-    pub fn shader(&self) -> &'static Shader {
+    fn background(&self) -> [f32; 3] {
+        self.scene.background
+    }
+
+    fn has_remainder(&self) -> bool {
+        self.scene.kernel.precision() == Precision::F64
+    }
+
+    fn write_remainder(&mut self, is_remainder: bool) {
+        self.scene.view_uniforms.frame.writes_remainder = u32::from(is_remainder);
+    }
+}
+
+impl WhittedRenderer {
+    pub fn new(device: &Arc<Device>, kernel: Kernel, builds: &Builds, made_for: MadeFor) -> Self {
+        Self { kernel, device: device.clone(), builds: builds.clone(), made_for, on_device: None }
+    }
+
+    /// That an invocation traces one after another.
+    fn pixels(&self, scene: &Scene, settings: &Settings, cost: &TraversalCost) -> u32 {
+        // A headless picture is traced again where an invocation took too much; one that a window shows is not.
+        // Without boxes, a search among more solids than are looked at is long.
+        let unknown = match self.made_for {
+            MadeFor::Headless if !settings.without_boxes => MOST_PIXELS,
+            MadeFor::Headless | MadeFor::Live => 1,
+        };
+        let suiting = || cost.pixels_per_invocation(scene.lights.len(), settings.generations(scene), unknown);
+        settings.pixels.unwrap_or_else(suiting)
+    }
+
+    /// The pipeline for a scene, and whether it is another than the last one.
+    fn pipeline_for(
+        &self,
+        last: Option<WhittedPipeline>,
+        scene: &WhittedScene,
+    ) -> Result<(WhittedPipeline, bool), GpuError> {
+        let Some(last) = last else { return Ok((WhittedPipeline::new(&self.device, &self.builds, scene)?, true)) };
+        let is_kept = match self.made_for {
+            MadeFor::Headless => last.fits(scene),
+            MadeFor::Live => last.serves(scene),
+        };
+        Ok(if is_kept { (last, false) } else { (last.replaced(&self.device, scene)?, true) })
+    }
+}
+
+impl Algorithm for WhittedRenderer {
+    type State = WhittedState;
+
+    fn kernel(&self) -> Kernel {
+        self.kernel
+    }
+
+    fn shader(&self) -> &'static Shader {
         shader_of(&self.device, self.kernel, WORKGROUP)
     }
 
-    /// From other builds from now on; binding sets made before are out of date.
-    ///
-    /// # Errors
-    /// The device does not take them; it stays as it is.
-    pub fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError> {
-        if let Some(begun) = &mut self.begun {
-            begun.pipeline = begun.pipeline.rebuilt(&self.device, builds)?;
+    fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError> {
+        if let Some(on_device) = &mut self.on_device {
+            on_device.pipeline = on_device.pipeline.rebuilt(&self.device, builds)?;
         }
         self.builds = builds.clone();
         Ok(())
     }
 
-    /// # Errors
-    /// The kernel cannot take the scene on this device.
-    pub fn prepare(
-        &self,
-        scene: &Scene,
-        settings: &Settings,
-        sampling: Sampling,
-        size: [u32; 2],
-    ) -> Result<WhittedState, TracerError> {
+    fn target(&self) -> TargetKind {
+        TargetKind::Pixels
+    }
+
+    fn prepare(&self, scene: &Scene, settings: &Settings) -> Result<WhittedState, TracerError> {
         let precision = self.kernel.precision();
         check_precision(&self.device, precision)?;
-        let same = self.begun.as_ref().filter(|begun| begun.primitives.list == scene.primitives);
+        let same = self.on_device.as_ref().filter(|last| last.primitives.list == scene.primitives);
         let primitives =
-            same.map_or_else(|| Arc::new(Primitives::of(&scene.primitives)), |begun| begun.primitives.clone());
+            same.map_or_else(|| Arc::new(Primitives::of(&scene.primitives)), |last| last.primitives.clone());
         let frame = scene_space_within(scene, &primitives.extent, self.kernel);
-        let last = self.begun.as_ref().map(|begun| &begun.records.solids).filter(|solids| solids.frame == frame);
+        let last = self.on_device.as_ref().map(|last| &last.records.solids).filter(|solids| solids.frame == frame);
         let solids = match last {
             Some(solids) if same.is_some() => solids.clone(),
             _ => Arc::new(SolidRecords::of(&scene.primitives, frame, precision, last.map(Arc::as_ref))),
         };
-        let records = WhittedRecords::with(scene, solids, precision, size);
-        let max_depth = settings.max_depth.unwrap_or(scene.max_depth);
-        // Of what a window shows, nothing is traced again that took too long.
-        let pixels = primitives.cost.pixels_per_invocation(scene.lights.len(), max_depth, 1);
-        let scene =
-            WhittedScene::with(&self.device, scene, records, self.kernel, settings.approximations, max_depth, size)?;
-        let scene = scene.with_pixels_per_invocation(pixels);
-        let scene = if settings.without_boxes { scene.without_boxes() } else { scene };
-        check_picture(self.device.description(), sampling.traced_size(size))?;
-        Ok(WhittedState { scene: scene.sampled(sampling, size), primitives })
+        let records = WhittedRecords::with(scene, solids, precision, [settings.width, settings.height]);
+        let pixels = self.pixels(scene, settings, &primitives.cost);
+        Ok(WhittedState { scene: WhittedScene::new(&self.device, scene, records, settings, pixels)?, primitives })
     }
 
-    /// Takes up a state: where the arrays keep their lengths, by what differs in them.
-    pub fn begin(&mut self, recorder: &mut Recorder, state: &WhittedState) -> Result<Begun, GpuError> {
+    /// Where the arrays keep their lengths, by what differs in them.
+    fn take_up(&mut self, recorder: &mut Recorder, state: &WhittedState) -> Result<TakenUp, GpuError> {
         let WhittedState { scene, primitives } = state;
         let precision = self.kernel.precision();
-        let update = self.begun.as_ref().and_then(|last| differing(&last.records, &scene.records, precision));
-        let mut begun = Begun::default();
-        let (last_pipeline, last_arrays) = match self.begun.take() {
+        let update = self.on_device.as_ref().and_then(|last| differing(&last.records, &scene.records, precision));
+        let mut taken_up = TakenUp::default();
+        let (last_pipeline, last_arrays) = match self.on_device.take() {
             Some(last) => (Some(last.pipeline), last.arrays),
             None => (None, Vec::new()),
         };
@@ -141,35 +165,37 @@ impl LiveWhitted {
                 recorder.update(array, parts.iter().map(|(offset, bytes)| (*offset, &bytes[..])));
                 recorder.make_ready(array, Use::ShaderRead);
             }
-            begun.uploaded = bytes_of(&update);
+            taken_up.uploaded = bytes_of(&update);
             last_arrays
         } else {
-            begun.uploaded = scene.bytes();
-            begun.needs_binding = true;
-            begun.dropped = last_arrays;
+            taken_up.uploaded = scene.bytes();
+            taken_up.needs_binding = true;
+            taken_up.dropped = last_arrays;
             scene.upload(&self.device)?
         };
-        let pipeline = match last_pipeline {
-            Some(last) if last.serves(scene, WORKGROUP) => last,
-            Some(last) => {
-                begun.needs_binding = true;
-                last.replaced(&self.device, scene, WORKGROUP)?
-            }
-            None => WhittedPipeline::new(&self.device, &self.builds, scene, WORKGROUP)?,
-        };
+        let (pipeline, is_other) = self.pipeline_for(last_pipeline, scene)?;
+        taken_up.needs_binding |= is_other;
         let (records, primitives) = (scene.records.clone(), primitives.clone());
-        self.begun = Some(OnDevice { pipeline, arrays, records, primitives });
-        Ok(begun)
+        self.on_device = Some(OnDevice { pipeline, arrays, records, primitives });
+        Ok(taken_up)
     }
 
-    /// The kernel writing into `picture`; `None` before its first state.
-    pub fn bind(&self, picture: &Resource) -> Result<Option<Arc<BindingSet>>, GpuError> {
-        self.begun.as_ref().map(|begun| begun.pipeline.bind(picture, &begun.arrays)).transpose()
+    fn bind(&self, picture: &Resource) -> Result<Option<Arc<BindingSet>>, GpuError> {
+        self.on_device.as_ref().map(|last| last.pipeline.bind(picture, &last.arrays)).transpose()
     }
 
-    /// That of the state begun last.
-    pub fn pipeline(&self) -> Option<&WhittedPipeline> {
-        self.begun.as_ref().map(|begun| &begun.pipeline)
+    fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, state: &WhittedState, sample: Sample) {
+        if let Some(OnDevice { pipeline, .. }) = &self.on_device {
+            pipeline.record(recorder, set, &state.scene.view_uniforms, sample);
+        }
+    }
+
+    fn trace_one_by_one(&mut self) -> Result<bool, GpuError> {
+        let Some(OnDevice { pipeline, .. }) = self.on_device.as_mut().filter(|last| last.pipeline.pixels > 1) else {
+            return Ok(false);
+        };
+        *pipeline = pipeline.one_by_one(&self.device)?;
+        Ok(true)
     }
 }
 
