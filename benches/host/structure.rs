@@ -3,8 +3,11 @@
 use criterion::{Criterion, Throughput};
 use rayon::prelude::*;
 use zerkalo::scene::SceneSpace;
-use zerkalo::tracer::hierarchy::{Bounds, levels, order};
-use zerkalo::tracer::{Precision, WhittedRecords, bounds};
+use zerkalo::tracer::Precision;
+use zerkalo::tracer::whitted::{
+    WhittedRecords, bounds,
+    hierarchy::{Bounds, levels, order},
+};
 
 pub fn benches(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("structure");

@@ -3,7 +3,8 @@
 use criterion::{Criterion, Throughput};
 use zerkalo::gpu::{Device, Validation};
 use zerkalo::plan::scene_space;
-use zerkalo::tracer::{Precision, WhittedRecords, upload_scene};
+use zerkalo::tracer::Precision;
+use zerkalo::tracer::whitted::{WhittedRecords, upload_scene};
 
 /// Nothing where there is no device; `ZERKALO_DEVICE` chooses one.
 pub fn benches(criterion: &mut Criterion) {

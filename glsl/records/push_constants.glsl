@@ -1,4 +1,4 @@
-// The push constants; `WhittedPushConstants` of src/tracer/whitted_records.rs.
+// The push constants; `WhittedPushConstants` of src/tracer/whitted/records.rs.
 struct WhittedPushConstants {
     uvec4 counts;     // of spheres, boxes, cylinders, cones
     uvec4 proxies;   // where their proxies begin, rows

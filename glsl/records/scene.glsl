@@ -1,5 +1,5 @@
 // The scene as it lies in memory: rows of four reals, so that the layout is the same for float and double.
-// src/tracer/whitted_records.rs writes them.
+// src/tracer/whitted/records.rs writes them.
 //
 // Scene space: the world frame with its origin among the solids, times a power of two that brings the farthest
 // coordinate of a solid, and of the camera, below 2. Within a kind the solids lie in the order of its hierarchy; the

@@ -4,7 +4,7 @@
 //
 // The solids lie in such an order that each eight that begin with a multiple of eight are near each other, and so are
 // each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what
-// is in it. src/tracer/hierarchy.rs makes the order, and the boxes.
+// is in it. src/tracer/whitted/hierarchy.rs makes the order, and the boxes.
 
 #if KIND == SPHERES
 #define OF_KIND(function) function##_sphere

@@ -1,5 +1,5 @@
 // The proxies of solids: where a ray may meet one at the earliest, and whether it does for sure. In float, on the safe
-// side; src/tracer/proxies.rs writes them. A proxy of nothing is never met.
+// side; src/tracer/whitted/proxies.rs writes them. A proxy of nothing is never met.
 
 // The half chord of a cylinder or a cone, squared, is off by this much of what it comes from: 2u for the difference, 3u
 // for each dot product and 4u for the direction's length, each at most once, and as much again for the sum.

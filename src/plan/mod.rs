@@ -278,8 +278,9 @@ impl Plan {
     }
 }
 
-/// As many pixels as a GPU's wave has lanes, or twice as many, in the most compact shape.
-const WORKGROUP: [u32; 2] = [8, 8];
+/// Pixels of a workgroup. lavapipe packs eight neighbours along x into one SIMD register, GPUs take 32 or 64
+/// invocations at a time, which lie nearest to each other in a square.
+pub const WORKGROUP: [u32; 2] = [8, 8];
 
 fn axis_aligned_boxes(kept: Kept) -> Decision<bool> {
     let boxes = kept.counts[SolidKind::Box as usize];

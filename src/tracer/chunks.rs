@@ -1,8 +1,7 @@
 //! A picture traced a chunk at a time: in which order, and how much at once. Pure: no Vulkan.
 
-use super::course::WORKGROUP;
 use super::tiles::Tile;
-use crate::plan::MOST_PIXELS;
+use crate::plan::{MOST_PIXELS, WORKGROUP};
 
 /// What a picture is traced by, pixels along x and y: workgroups below each other, as many as an invocation has pixels
 /// at most.

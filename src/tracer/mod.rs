@@ -2,24 +2,16 @@
 
 mod canvas;
 mod chunks;
-mod course;
-mod features;
-pub mod hierarchy;
+pub mod course;
 mod parts;
 mod pixels;
 pub mod probe;
-mod proxies;
-mod records;
 mod renderer;
-mod rows;
 mod settings;
 mod target;
 mod tiles;
 mod upscale;
-mod whitted;
-mod whitted_pipeline;
-mod whitted_records;
-mod whitted_renderer;
+pub mod whitted;
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -27,19 +19,9 @@ use std::sync::Arc;
 use glam::DVec3;
 
 pub use canvas::Canvas;
-pub use course::{BINDINGS, MAX_PRIMITIVES, WORKGROUP, upload};
-pub use proxies::bounds;
-pub use records::{
-    BoxRecord, ConeRecord, CoursePushConstants, CylinderRecord, LightRecord, MaterialRecord, PrimitiveRecords,
-    SphereRecord,
-};
+pub use settings::Settings;
 
 pub use crate::algorithm::{Kernel, Precision};
-pub use crate::plan::Features;
-pub use settings::Settings;
-pub use whitted::{check_precision, scene_bindings, upload_scene};
-pub use whitted_records::{SolidRecords, WhittedPushConstants, WhittedRecords};
-
 use crate::frame::{Frame, FrameError};
 use crate::gpu::{BindingSet, Builds, Commands, Device, DeviceDescription, GpuError, Recorder, Texel, Timer, Use};
 use crate::plan::Limits;

@@ -5,11 +5,9 @@ use std::sync::Arc;
 use bytemuck::{bytes_of, cast_slice};
 use glam::DVec3;
 
-use super::course::upload;
-use super::records::{CoursePushConstants, PrimitiveRecords};
-use super::whitted::{scene_bindings, upload_scene};
-use super::whitted_records::{WhittedPushConstants, WhittedRecords};
-use super::{Kernel, TracerError, check_precision};
+use super::course::{CoursePushConstants, PrimitiveRecords, upload};
+use super::whitted::{WhittedPushConstants, WhittedRecords, check_precision, scene_bindings, upload_scene};
+use super::{Kernel, TracerError};
 use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, Device, PipelineDescription, Resource, Use,
     shaders,

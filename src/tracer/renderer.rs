@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::course::CourseRenderer;
 use super::pixels::pixel_buffer;
 use super::tiles::Tile;
-use super::whitted_renderer::WhittedRenderer;
+use super::whitted::WhittedRenderer;
 use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, StorageImage};
 use crate::scene::Scene;

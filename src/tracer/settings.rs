@@ -1,8 +1,7 @@
 //! How to draw, apart from the scene.
 
-use super::course::WORKGROUP;
 use crate::algorithm::Kernel;
-use crate::plan::{Approximations, Plan};
+use crate::plan::{Approximations, Plan, WORKGROUP};
 use crate::scene::Scene;
 use crate::settings::sampling::Sampling;
 

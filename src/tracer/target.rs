@@ -6,7 +6,7 @@ use super::pixels::largest_side;
 use super::renderer::TargetKind;
 use super::tiles::{Tile, tiles};
 use super::upscale::{Upscaler, Upscaling};
-use super::{Kernel, Settings, TracerError};
+use super::{Settings, TracerError};
 use crate::gpu::{Buffer, BufferKind, Device, PIXEL_BYTES, Resource};
 use crate::plan::{tile_side, tried_under_boxes};
 use crate::scene::Scene;
@@ -79,7 +79,7 @@ impl Target {
 fn traced_side(scene: &Scene, settings: &Settings, limit: u32) -> u32 {
     let max_tile_side = settings.max_tile_side.clamp(1, limit);
     let solids = scene.primitives.len();
-    let has_boxes = settings.kernel != Kernel::Course && !settings.without_boxes;
+    let has_boxes = settings.kernel.algorithm().description().has_hierarchy && !settings.without_boxes;
     let tried = if has_boxes { tried_under_boxes(solids) } else { solids };
     tile_side(max_tile_side, tried, scene.lights.len(), settings.generations(scene))
 }

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use bytemuck::{Pod, Zeroable};
 
-use super::course::WORKGROUP;
 use super::tiles::Tile;
 use crate::gpu::{
     BindingKind, BindingSet, ComputePipeline, Device, GpuError, PipelineDescription, Recorder, Resource, StorageImage,
     Use, shaders,
 };
+use crate::plan::WORKGROUP;
 
 /// `Push` of the kernel; pixels.
 #[repr(C)]

@@ -7,11 +7,11 @@ use glam::DVec3;
 use super::selection::{by_shader, few_with_all};
 use crate::algorithm::{ALGORITHMS, Kernel};
 use crate::gpu::DeviceDescription;
-use crate::plan::{Limits, Plan, PlanError, Precision, Structure};
+use crate::plan::{Limits, Plan, PlanError, Precision, Structure, WORKGROUP};
 use crate::scene::{Camera, Light, Material, Primitive, Scene, Solid, gallery};
 use crate::settings::RenderSettings;
 use crate::settings::sampling::Sampling;
-use crate::tracer::{Settings, WORKGROUP};
+use crate::tracer::Settings;
 
 /// Pixels. The checks are per command and per access, not per pixel.
 pub const PICTURE: [u32; 2] = [64, 28];

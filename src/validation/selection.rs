@@ -3,8 +3,9 @@
 use serde::Serialize;
 
 use super::{Run, Scope};
-use crate::plan::scene_space;
-use crate::tracer::{Features, Kernel, Settings, WORKGROUP, WhittedRecords};
+use crate::plan::{Features, WORKGROUP, scene_space};
+use crate::tracer::whitted::WhittedRecords;
+use crate::tracer::{Kernel, Settings};
 
 /// Runs in a row that are drawn by one shader.
 pub(super) fn by_shader(runs: &[Run]) -> impl Iterator<Item = &[Run]> {

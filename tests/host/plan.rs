@@ -5,11 +5,12 @@ use std::ops::ControlFlow;
 use crate::scenes::{cube, light, material, mirror, mixed_scene, primitive, scene_of_a_light, sphere};
 use glam::DVec3;
 use zerkalo::algorithm::{Algorithm, Kernel};
-use zerkalo::plan::{Area, Limits, Plan, PlanError, Precision, Reason, Structure, scene_space};
+use zerkalo::plan::{Area, Features, Limits, Plan, PlanError, Precision, Reason, Structure, scene_space};
 use zerkalo::reference::{self, LIGHT_SPHERE};
 use zerkalo::scene::{Camera, Light, Material, Scene, Solid, SolidKind, gallery};
 use zerkalo::settings::RenderSettings;
-use zerkalo::tracer::{Features, Settings, WhittedRecords};
+use zerkalo::tracer::Settings;
+use zerkalo::tracer::whitted::WhittedRecords;
 
 const DEVICE: Limits = Limits { float64: true, max_array_bytes: 1 << 27, max_image_side: 16384, packets: true };
 

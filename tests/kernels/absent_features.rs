@@ -9,10 +9,10 @@ use crate::common::TestDevice;
 use crate::spirv_walk::{Kernel, Reached};
 use glam::DVec3;
 use zerkalo::gpu::{Shader, shaders};
-use zerkalo::plan::{Limits, Plan, Precision, scene_space};
+use zerkalo::plan::{Features, Limits, Plan, Precision, scene_space};
 use zerkalo::scene::{Light, Material, Scene, Solid, SolidKind, gallery};
 use zerkalo::settings::RenderSettings;
-use zerkalo::tracer::{Features, WhittedRecords};
+use zerkalo::tracer::whitted::WhittedRecords;
 
 const SIZE: (u32, u32) = (1621, 701);
 

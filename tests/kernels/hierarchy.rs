@@ -8,8 +8,11 @@ use rayon::prelude::*;
 use zerkalo::frame::Frame;
 use zerkalo::reference::{BACKGROUND, LIGHT_SPHERE};
 use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, SceneSpace, Solid, SolidKind, gallery};
-use zerkalo::tracer::hierarchy::{Bounds, GROUP, level_count, levels, order};
-use zerkalo::tracer::{Kernel, Precision, Settings, WhittedRecords, bounds};
+use zerkalo::tracer::whitted::{
+    WhittedRecords, bounds,
+    hierarchy::{Bounds, GROUP, level_count, levels, order},
+};
+use zerkalo::tracer::{Kernel, Precision, Settings};
 
 fn made(name: &str) -> Scene {
     gallery::scene(name).unwrap_or_else(|| panic!("no scene {name}"))

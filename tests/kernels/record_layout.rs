@@ -9,7 +9,7 @@ use zerkalo::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, Commands, ComputePipeline, PipelineDescription, Resource,
     StorageImage, Use, shaders,
 };
-use zerkalo::tracer::{
+use zerkalo::tracer::course::{
     BINDINGS, BoxRecord, ConeRecord, CoursePushConstants, CylinderRecord, LightRecord, MAX_PRIMITIVES, MaterialRecord,
     PrimitiveRecords, SphereRecord, upload,
 };

@@ -11,10 +11,10 @@ use zerkalo::gpu::{
     BindingSet, Buffer, BufferKind, Commands, ComputePipeline, Device, PIXEL_BYTES, PipelineDescription, Resource,
     StorageImage, Use, shaders,
 };
+use zerkalo::plan::WORKGROUP;
 use zerkalo::scene::{Light, Primitive, Scene, Solid, SolidKind, gallery};
-use zerkalo::tracer::{
-    BINDINGS, CoursePushConstants, MAX_PRIMITIVES, PrimitiveRecords, Settings, Tracer, TracerError, WORKGROUP, upload,
-};
+use zerkalo::tracer::course::{BINDINGS, CoursePushConstants, MAX_PRIMITIVES, PrimitiveRecords, upload};
+use zerkalo::tracer::{Settings, Tracer, TracerError};
 
 /// Neither side is a multiple of a tile or a workgroup used here.
 const SIZE: [u32; 2] = [151, 67];

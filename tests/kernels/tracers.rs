@@ -4,9 +4,10 @@ use std::ops::ControlFlow;
 
 use glam::DVec3;
 use zerkalo::frame::Frame;
-use zerkalo::plan::{MOST_PIXELS, TraversalCost, scene_space};
+use zerkalo::plan::{Features, MOST_PIXELS, TraversalCost, scene_space};
 use zerkalo::scene::Scene;
-use zerkalo::tracer::{Features, Kernel, Settings, Tracer, WhittedRecords};
+use zerkalo::tracer::whitted::WhittedRecords;
+use zerkalo::tracer::{Kernel, Settings, Tracer};
 
 use crate::common::TestDevice;
 

@@ -3,12 +3,12 @@
 use std::sync::Arc;
 use std::thread::available_parallelism;
 
-use super::Kernel;
-use super::parts::{Grid, Part};
-use super::renderer::Sample;
-use super::tiles::Tile;
-use super::whitted::{LightSpheres, ViewUniforms, WhittedScene, scene_bindings, unpacked};
-use super::whitted_records::WhittedPushConstants;
+use super::super::Kernel;
+use super::super::parts::{Grid, Part};
+use super::super::renderer::Sample;
+use super::super::tiles::Tile;
+use super::records::WhittedPushConstants;
+use super::scene::{LightSpheres, ViewUniforms, WhittedScene, scene_bindings, unpacked};
 use crate::gpu::{
     BindingKind, BindingSet, Builds, ComputePipeline, Device, DeviceKind, Dispatch, GpuError, PipelineDescription,
     Recorder, Resource, Shader, shaders,

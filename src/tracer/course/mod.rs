@@ -1,11 +1,12 @@
 //! The course's kernel, `glsl/course.comp`: its pipeline and the scene it draws.
 
+mod records;
+
 use std::sync::Arc;
 
 use bytemuck::NoUninit;
 
 use super::parts::Part;
-use super::records::{CoursePushConstants, PrimitiveRecords};
 use super::renderer::{Algorithm, MadeFor, Sample, State, TakenUp, TargetKind};
 use super::{Kernel, Settings, TracerError};
 use crate::gpu::{
@@ -14,16 +15,17 @@ use crate::gpu::{
 };
 use crate::scene::{COURSE_PRIMITIVE_LIMIT, DEPTH_LIMIT, Light, Scene};
 
+pub use records::{
+    BoxRecord, ConeRecord, CoursePushConstants, CylinderRecord, LightRecord, MaterialRecord, PrimitiveRecords,
+    SphereRecord,
+};
+
 /// `MAX_PRIMITIVES` of `glsl/course/interface.glsl`: the course work's limit, over all kinds together.
 pub const MAX_PRIMITIVES: usize = COURSE_PRIMITIVE_LIMIT;
 
 /// Bindings of `glsl/course/bindings.glsl`: the picture, then spheres, boxes, cylinders and cones.
 pub const BINDINGS: [BindingKind; 5] =
     [BindingKind::Picture, BindingKind::Uniform, BindingKind::Uniform, BindingKind::Uniform, BindingKind::Uniform];
-
-/// Pixels of a workgroup. lavapipe packs eight neighbours along x into one SIMD register, GPUs take 32 or 64
-/// invocations at a time, which lie nearest to each other in a square.
-pub const WORKGROUP: [u32; 2] = [8, 8];
 
 /// A scene as the kernel takes it.
 #[derive(Debug, PartialEq)]

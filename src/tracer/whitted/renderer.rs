@@ -6,17 +6,17 @@ use std::sync::Arc;
 
 use bytemuck::NoUninit;
 
-use super::renderer::{Algorithm, MadeFor, Sample, State, TakenUp, TargetKind};
-use super::whitted::{WhittedScene, check_precision};
-use super::whitted_pipeline::{WhittedPipeline, shader_of};
-use super::whitted_records::{SolidRecords, WhittedRecords};
-use super::{Kernel, Settings, TracerError, WORKGROUP};
+use super::super::renderer::{Algorithm, MadeFor, Sample, State, TakenUp, TargetKind};
+use super::super::{Kernel, Settings, TracerError};
+use super::pipeline::{WhittedPipeline, shader_of};
+use super::records::{SolidRecords, WhittedRecords};
+use super::scene::{WhittedScene, check_precision};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Texel, Use};
-use crate::plan::{MOST_PIXELS, Precision, TraversalCost, scene_space_within};
+use crate::plan::{MOST_PIXELS, Precision, TraversalCost, WORKGROUP, scene_space_within};
 use crate::scene::{Extent, Primitive, Scene};
 
 /// The kernel with the scene that it took up last.
-pub(super) struct WhittedRenderer {
+pub struct WhittedRenderer {
     kernel: Kernel,
     device: Arc<Device>,
     builds: Builds,
@@ -47,7 +47,7 @@ impl Primitives {
 }
 
 /// A state of the scene.
-pub(super) struct WhittedState {
+pub struct WhittedState {
     scene: WhittedScene,
     primitives: Arc<Primitives>,
 }

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::whitted_records::{WhittedPushConstants, WhittedRecords};
-use super::{Kernel, Settings, TracerError};
+use super::super::{Kernel, Settings, TracerError};
+use super::records::{WhittedPushConstants, WhittedRecords};
 use crate::gpu::{BindingKind, Buffer, BufferKind, Device, GpuError, Resource, Texel};
 use crate::plan::{Area, Features, MOST_PIXELS, Precision};
 use crate::scene::Scene;
@@ -39,7 +39,7 @@ impl Precision {
     }
 
     /// Numbers as the kernel reads them.
-    pub(super) fn bytes(self, numbers: &[f64]) -> Vec<u8> {
+    pub(in crate::tracer) fn bytes(self, numbers: &[f64]) -> Vec<u8> {
         match self {
             Self::F32 => numbers.iter().flat_map(|&number| (number as f32).to_ne_bytes()).collect(),
             Self::F64 => bytemuck::cast_slice(numbers).to_vec(),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::whitted_records::WhittedRecords;
+use super::records::WhittedRecords;
 use crate::gpu::{Device, DeviceKind, FloatWidth, GpuError, arithmetic};
 use crate::plan::{Approximations, CPU_MAX_ITERATIONS, Features, Precision};
 
