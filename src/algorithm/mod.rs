@@ -58,8 +58,12 @@ pub struct Description {
     pub has_hierarchy: bool,
     /// Whether a pixel may have several samples, and a picture be upscaled from a smaller one.
     pub samples: bool,
+    /// Whether it draws the accurate model, and not the course work's.
+    pub is_of_accurate_model: bool,
     /// Whether its pictures are those of the accurate model, to the tolerances of its precision.
     pub is_accurate: bool,
+    /// Whether it calculates in `f32` from the camera where lengths are far apart.
+    pub has_close_ups: bool,
     /// Whether table 4.1 of the course work is measured with it.
     pub is_in_fps_table: bool,
 }
@@ -76,7 +80,9 @@ pub static ALGORITHMS: [Description; 4] = [
         approximates: false,
         has_hierarchy: false,
         samples: false,
+        is_of_accurate_model: false,
         is_accurate: false,
+        has_close_ups: false,
         is_in_fps_table: true,
     },
     Description {
@@ -89,7 +95,9 @@ pub static ALGORITHMS: [Description; 4] = [
         approximates: true,
         has_hierarchy: true,
         samples: false,
+        is_of_accurate_model: true,
         is_accurate: false,
+        has_close_ups: false,
         is_in_fps_table: false,
     },
     Description {
@@ -102,7 +110,9 @@ pub static ALGORITHMS: [Description; 4] = [
         approximates: true,
         has_hierarchy: true,
         samples: true,
+        is_of_accurate_model: true,
         is_accurate: true,
+        has_close_ups: true,
         is_in_fps_table: true,
     },
     Description {
@@ -115,7 +125,9 @@ pub static ALGORITHMS: [Description; 4] = [
         approximates: false,
         has_hierarchy: false,
         samples: false,
+        is_of_accurate_model: true,
         is_accurate: true,
+        has_close_ups: false,
         is_in_fps_table: false,
     },
 ];
@@ -179,6 +191,11 @@ impl ValueEnum for Algorithm {
 }
 
 impl Kernel {
+    /// Its algorithm's row of [`ALGORITHMS`].
+    pub fn description(self) -> &'static Description {
+        self.algorithm().description()
+    }
+
     /// The algorithm that it runs.
     pub fn algorithm(self) -> Algorithm {
         match self {
@@ -198,7 +215,7 @@ impl Kernel {
 
     /// The algorithm's name and, where that has several, the precision's.
     pub fn name(self) -> String {
-        let description = self.algorithm().description();
+        let description = self.description();
         if description.has_precisions() {
             format!("{} {}", description.name, self.precision().name())
         } else {

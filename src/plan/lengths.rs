@@ -48,7 +48,7 @@ impl<'a> Lengths<'a> {
     /// large. The kernels that are there to compare with know no close-ups.
     pub fn close_up(&self, kernel: Kernel) -> Option<f64> {
         let is_short = (1..=MOST_SOLIDS_NEARBY).contains(&self.scene.primitives.len());
-        let has_close_ups = kernel == Kernel::Whitted(Precision::F32);
+        let has_close_ups = kernel.description().has_close_ups && kernel.precision() == Precision::F32;
         (has_close_ups && is_short && self.ratio() > MILD_RATIO).then(|| self.ratio())
     }
 

@@ -79,7 +79,7 @@ impl Target {
 fn traced_side(scene: &Scene, settings: &Settings, limit: u32) -> u32 {
     let max_tile_side = settings.max_tile_side.clamp(1, limit);
     let solids = scene.primitives.len();
-    let has_boxes = settings.kernel.algorithm().description().has_hierarchy && !settings.without_boxes;
+    let has_boxes = settings.kernel.description().has_hierarchy && !settings.without_boxes;
     let tried = if has_boxes { tried_under_boxes(solids) } else { solids };
     tile_side(max_tile_side, tried, scene.lights.len(), settings.generations(scene))
 }

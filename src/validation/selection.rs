@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use super::{Run, Scope};
 use crate::plan::{Features, WORKGROUP, scene_space};
+use crate::tracer::Settings;
 use crate::tracer::whitted::WhittedRecords;
-use crate::tracer::{Kernel, Settings};
 
 /// Runs in a row that are drawn by one shader.
 pub(super) fn by_shader(runs: &[Run]) -> impl Iterator<Item = &[Run]> {
@@ -60,7 +60,7 @@ pub(super) fn few_with_all(runs: &[Run], counts: impl Fn(State) -> bool) -> Vec<
 /// What plans turn on and off, with whether this run has it; `None` for the course's kernel, which is always the same.
 fn states(run: &Run) -> Option<[State; 17]> {
     let &Settings { kernel, approximations, width, height, without_boxes, samples, scale, .. } = &run.settings;
-    if kernel == Kernel::Course {
+    if !kernel.description().is_of_accurate_model {
         return None;
     }
     let records = WhittedRecords::of(&run.scene, scene_space(&run.scene, kernel), kernel.precision(), [width, height]);

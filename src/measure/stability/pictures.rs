@@ -10,7 +10,7 @@ use crate::frame::Frame;
 use crate::measure::{Difference, tolerances};
 use crate::reference::{self, Image64, LIGHT_SPHERE, RenderError};
 use crate::scene::{Scene, gallery};
-use crate::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
+use crate::tracer::{Precision, Settings, Tracer, TracerError};
 
 pub(super) fn cases() -> Vec<Case> {
     let mut cases = vec![
@@ -51,7 +51,7 @@ pub(super) fn picture(
     let settings = Settings { kernel: subject.kernel, ..Settings::new(width, height) };
     match Tracer::new(&subject.device, scene, &settings) {
         Ok(mut tracer) => Ok(Some(tracer.render_f64()?)),
-        Err(TracerError::Refused(_)) if subject.kernel == Kernel::Course => Ok(None),
+        Err(TracerError::Refused(_)) if !subject.kernel.description().is_of_accurate_model => Ok(None),
         Err(error) => Err(error),
     }
 }
@@ -84,7 +84,8 @@ fn compared(
     size: [u32; 2],
     least_solid: usize,
 ) -> Result<Vec<Measured>, TracerError> {
-    let Some(ours) = picture(subject, scene, size)?.filter(|_| subject.kernel != Kernel::Course) else {
+    let Some(ours) = picture(subject, scene, size)?.filter(|_| subject.kernel.description().is_of_accurate_model)
+    else {
         return Ok(Vec::new());
     };
     let precision = subject.kernel.precision();
@@ -105,9 +106,9 @@ fn moved(subject: &Subject, moves: &[(f64, DVec3)]) -> Result<Vec<Measured>, Tra
     let scene = gallery::scene("four").unwrap_or_default();
     let (size, precision) = (size(subject), subject.kernel.precision());
     let original = truth(&scene, size)?;
-    let own = match subject.kernel {
-        Kernel::Course => picture(subject, &scene, size)?,
-        Kernel::Plain | Kernel::Whitted(_) => None,
+    let own = match subject.kernel.description().is_of_accurate_model {
+        true => None,
+        false => picture(subject, &scene, size)?,
     };
     let mut total = Difference::default();
     for &(scale, shift) in moves {

@@ -9,7 +9,7 @@ use super::solids::{direction, grazing, middle, placed, ray, rays_at, usual};
 use super::{Case, Measured, Subject};
 use crate::scene::{Solid, SolidKind};
 use crate::tracer::probe::{From, ProbeHit, ProbeRay};
-use crate::tracer::{Kernel, Precision, TracerError};
+use crate::tracer::{Precision, TracerError};
 
 pub(super) fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
@@ -309,9 +309,9 @@ fn leave(subject: &Subject, hit: &ProbeHit, index: usize) -> ProbeRay {
     // Every third nearly along the surface.
     let outwards =
         if index.is_multiple_of(3) { sample - hit.normal * (height - 1e-5) } else { sample * height.signum() };
-    let (origin, from) = match (subject.kernel, hit.surface) {
-        (Kernel::Course, _) | (_, None) => (hit.point + 0.02 * hit.normal, From::Space),
-        (_, Some((face, side))) => (hit.point, From::Own(face, side)),
+    let (origin, from) = match hit.surface {
+        None => (hit.point + 0.02 * hit.normal, From::Space),
+        Some((face, side)) => (hit.point, From::Own(face, side)),
     };
     let direction = stored_vector(outwards.normalize(), precision);
     ProbeRay { origin: stored_vector(origin, precision), direction, solid: 0, from }

@@ -8,7 +8,7 @@ use super::{Case, Measured};
 use crate::plan::Plan;
 use crate::scene::{Camera, Light, Material, Primitive, Scene, Solid, world_from_box};
 use crate::settings::RenderSettings;
-use crate::tracer::{Kernel, Precision, TracerError, limits_of};
+use crate::tracer::{Precision, TracerError, limits_of};
 
 pub(super) fn cases() -> Vec<Case> {
     vec![
@@ -44,7 +44,10 @@ const FEW_WRONG: f64 = 0.005;
 /// The accurate kernel is right, or `f32` is known not to be: then the plan takes `f64`, or says so.
 fn right_or_told(id: &str, scene: impl Fn() -> Scene + 'static) -> Case {
     Case::of_kernel(id, move |subject| {
-        let Kernel::Whitted(precision) = subject.kernel else { return Ok(Vec::new()) };
+        if !subject.kernel.description().is_accurate {
+            return Ok(Vec::new());
+        }
+        let precision = subject.kernel.precision();
         let (scene, [width, height]) = (scene(), size(subject));
         let settings = RenderSettings { precision: Some(precision), ..RenderSettings::default() };
         let limits = limits_of(subject.device.description());
