@@ -80,10 +80,10 @@ fn reached(device: &TestDevice, kernel: &Kernel, scene: &Scene, precision: Preci
 
 /// Functions by the beginning of their names, and arrays, that must be reached with a feature and not without it.
 const GONE: [(&str, &[&str]); 11] = [
-    ("spheres", &["sphere_rows", "sphere(", "search_spheres(", "key_of_sphere(", "try_eight_spheres("]),
-    ("boxes", &["box_rows", "box(", "search_boxes(", "key_of_box(", "try_eight_boxes("]),
-    ("cylinders", &["cylinder_rows", "cylinder(", "search_cylinders(", "key_of_cylinder("]),
-    ("cones", &["cone_rows", "cone(", "search_cones(", "key_of_cone("]),
+    ("spheres", &["sphere_rows", "sphere(", "search_sphere(", "key_of_sphere(", "try_eight_sphere("]),
+    ("boxes", &["box_rows", "box(", "search_box(", "key_of_box(", "try_eight_box("]),
+    ("cylinders", &["cylinder_rows", "cylinder(", "search_cylinder(", "key_of_cylinder("]),
+    ("cones", &["cone_rows", "cone(", "search_cone(", "key_of_cone("]),
     ("rotated boxes", &[]),
     ("structures", &["enter_boxes(", "boxes_ahead("]),
     ("light spheres", &["may_meet_a_light_sphere(", "light_sphere_ahead("]),
