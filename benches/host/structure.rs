@@ -2,11 +2,11 @@
 
 use criterion::{Criterion, Throughput};
 use rayon::prelude::*;
-use zerkalo::scene::SceneSpace;
+use zerkalo::scene::{Bounds, SceneSpace};
 use zerkalo::tracer::Precision;
 use zerkalo::tracer::whitted::{
-    WhittedRecords, bounds,
-    hierarchy::{Bounds, levels, order},
+    WhittedRecords,
+    hierarchy::{levels, order},
 };
 
 pub fn benches(criterion: &mut Criterion) {
@@ -15,7 +15,7 @@ pub fn benches(criterion: &mut Criterion) {
         let scene = crate::scene(name);
         let frame = SceneSpace::of(&scene);
         let solids: Vec<Bounds> =
-            scene.primitives.par_iter().map(|primitive| bounds(&primitive.solid, frame)).collect();
+            scene.primitives.par_iter().map(|primitive| Bounds::of(&primitive.solid, frame)).collect();
         let ordered: Vec<Bounds> = order(&solids).into_iter().map(|place| solids[place as usize]).collect();
         group.throughput(Throughput::Elements(solids.len() as u64));
         group.bench_function(format!("{name}, order"), |bencher| bencher.iter(|| order(&solids)));

@@ -63,13 +63,21 @@ struct Material {
     Real ambient;
     Real diffuse;
     Real specular;
+    Real reflection;      // weight of the mirrored ray
     uint primitive;       // index in the scene
+    uint shininess_256;   // the highlight's exponent, times 256
+    Real transmission;    // weight of the refracted ray
+    Real refractive_index; // 0 of a plate without thickness, which rays go through as they are
 };
 
 struct Light {
     Real3 position;
     Real sphere_radius;
     Real3 intensity;      // linear RGB
+    // What reaches a point at distance d is intensity * scale / (slope * d + constant).
+    Real scale;
+    Real slope;
+    Real constant;
 };
 
 struct View {
@@ -82,6 +90,8 @@ struct View {
     Real3 background;     // linear RGB
     Real3 position;       // + position_error: of the camera
     Real3 position_error;
+    bool may_be_in_medium; // the camera
+    Real3 ambient_light;  // linear RGB
 };
 
 // What a scene lacks costs nothing: the pipeline is made for what there is.
@@ -105,6 +115,14 @@ layout(constant_id = 14) const uint LIGHTS = 2u; // none, one, or several
 layout(constant_id = 15) const bool HAS_SHADOWS = true;
 layout(constant_id = 16) const bool HAS_REFLECTIONS = true;
 layout(constant_id = 17) const uint LIGHT_SPHERES = 2u; // of lights, that primary rays may see: as many
+layout(constant_id = 21) const bool HAS_SHININESS = false;    // highlights of other exponents than 5
+layout(constant_id = 22) const bool HAS_ATTENUATION = false;
+layout(constant_id = 23) const bool HAS_AMBIENT_LIGHT = false; // other than white of 1
+// What lets light through: nothing, solids that lie apart, or such as may touch others or hold the camera.
+layout(constant_id = 24) const uint MEDIA = 0u;
+const uint NO_MEDIA = 0u;
+const uint APART = 1u;
+const uint NESTED = 2u;
 
 // Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 iterations of all of them together:
 // there the search ends before that, and says so.
@@ -127,18 +145,24 @@ View view() {
     Real4 a = ROW(view_and_lights, 0u), b = ROW(view_and_lights, 1u);
     Real4 c = ROW(view_and_lights, 2u), d = ROW(view_and_lights, 3u);
     Real4 e = ROW(view_and_lights, 4u), f = ROW(view_and_lights, 5u);
-    return View(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz, e.xyz, f.xyz);
+    Real3 ambient_light = Real3(1.0);
+    if (HAS_AMBIENT_LIGHT) ambient_light = ROW(view_and_lights, 6u).xyz;
+    return View(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz, e.xyz, f.xyz, e.w != 0.0, ambient_light);
 }
 
 Light light(uint index) {
-    uint first = 6u + 2u * index;
-    Real4 a = ROW(view_and_lights, first), b = ROW(view_and_lights, first + 1u);
-    return Light(a.xyz, a.w, b.xyz);
+    uint first = 7u + (HAS_ATTENUATION ? 3u : 2u) * index;
+    Real4 a = ROW(view_and_lights, first), b = ROW(view_and_lights, first + 1u), c = Real4(1.0, 0.0, 1.0, 0.0);
+    if (HAS_ATTENUATION) c = ROW(view_and_lights, first + 2u);
+    return Light(a.xyz, a.w, b.xyz, c.x, c.y, c.z);
 }
 
 Material material(uint slot) {
-    Real4 a = ROW(material_rows, 2u * slot), b = ROW(material_rows, 2u * slot + 1u);
-    return Material(a.xyz, a.w, b.x, b.y, uint(b.z));
+    const bool has_optics = HAS_SHININESS || MEDIA != NO_MEDIA;
+    uint first = (has_optics ? 3u : 2u) * slot;
+    Real4 a = ROW(material_rows, first), b = ROW(material_rows, first + 1u), c = Real4(0.0);
+    if (has_optics) c = ROW(material_rows, first + 2u);
+    return Material(a.xyz, a.w, b.x, b.y, b.w, uint(b.z), uint(c.x), c.y, c.z);
 }
 
 const Curve NO_CURVE = Curve(Real3(0.0), Real(0.0), Real3(0.0));

@@ -110,7 +110,8 @@ void take(Group group, inout Found found) {
 // light: it is before the light by more than its rounding, at a sine to the surface of rise by run.
 void tighten(bool is_met, float t, float rise, float run, TraversalRay traversal, inout Found found) {
     bool is_shadow = traversal.target_size >= 0.0;
-    bool hides = (found.limit - t) * rise > HIDING_ERROR * (traversal.target_size + 2.0 * frame.reach) * run;
+    // Where something lets light through, what hides a light is known of its material only.
+    bool hides = MEDIA == NO_MEDIA && (found.limit - t) * rise > HIDING_ERROR * (traversal.target_size + 2.0 * frame.reach) * run;
     float limit = is_shadow ? (hides ? HIDDEN : FAR) : t;
     found.limit = is_met && limit < found.limit ? limit : found.limit;
 }

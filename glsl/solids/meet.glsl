@@ -14,6 +14,7 @@ bool meet(SOLID solid, Ray ray, uint origin, uint own_face, out Hit hit) {
     hit.inside = origin == OWN_INSIDE || starts_inside;
     Real s = hit.inside ? inside.far : inside.near;
     hit.t = t_at(at.line, s);
+    hit.t_far = MEDIA != NO_MEDIA ? t_at(at.line, inside.far) : hit.t;
     hit.face = hit.inside ? inside.far_face : inside.near_face;
     bool is_ahead = is_met && hit.t > 0.0;
     if (hit.inside && origin != OWN_INSIDE) {

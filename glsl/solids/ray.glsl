@@ -24,6 +24,7 @@ struct OriginSurface {
 
 struct Hit {
     Real t;
+    Real t_far;   // where the ray leaves the solid; of scenes that let light through
     Real3 point;
     Real3 normal; // unit, towards the side the ray came from
     Real size;    // of the solid

@@ -4,7 +4,9 @@
 const uint ENDED = 0u;     // nothing more
 const uint TO_NEAREST = 1u;
 const uint TO_LIGHT = 2u;
-const uint REFLECTED = 3u; // to the nearest, and not yet made of the hit that it leaves
+const uint ONWARD = 3u;    // to the nearest, and not yet made of the hit that it leaves
+const uint RESUMED = 4u;   // to the nearest, and not yet made of what is pending
+const uint TO_MEDIUM = 5u; // to find out what a point lies in
 
 // How far the search for what a ray meets has come.
 struct SearchState {
@@ -18,9 +20,11 @@ struct Path {
     Real3 color;     // linear RGB, of the generations that are over
     Real weight;     // in it, of the present one
     uint generation;
+    uint pending;    // rays that it goes on by later
 
     uint purpose;
     Ray ray;
+    Real medium;     // refractive index of what it goes through
     OriginSurface origin_surface;
     bool may_see_light_sphere; // a primary ray that may
     SearchState search;
@@ -32,6 +36,11 @@ struct Path {
     Real3 incident;       // the direction of the ray that met it
     Real3 local_radiance;
     uint light_index;     // of the first light that has not been tried
+    // Refractive index of the innermost other solid about the ray's origin: of the one that the ray straight on leaves
+    // first, where, and which that is.
+    Real medium_outside;
+    Real medium_t;
+    uint medium_primitive;
 
     // What a shadow ray goes to.
     Light light;
@@ -45,7 +54,12 @@ Path path_at_rest(View view) {
     path.color = Real3(0.0);
     path.weight = 1.0;
     path.generation = 0u;
+    path.pending = 0u;
     path.purpose = ENDED;
+    path.medium = 1.0;
+    path.medium_outside = 1.0;
+    path.medium_t = LARGEST;
+    path.medium_primitive = NOTHING;
     path.ray = Ray(view.position, view.position_error, view.ahead);
     path.origin_surface = OriginSurface(NOTHING, CURVED, false);
     path.may_see_light_sphere = false;
@@ -58,6 +72,14 @@ Path path_at_rest(View view) {
     if (LIGHTS == 1u || LIGHT_SPHERES == 1u) path.light = light(0u);
     return path;
 }
+
+// Whether the path's next ray is still to be made.
+bool is_to_set_out(Path path) {
+    if (MEDIA != NO_MEDIA && path.purpose == RESUMED) return true;
+    return HAS_REFLECTIONS && path.purpose == ONWARD;
+}
+
+bool asks_for_medium(Path path) { return MEDIA == NESTED && path.purpose == TO_MEDIUM; }
 
 bool is_shadow_ray(Path path) { return HAS_SHADOWS && path.purpose == TO_LIGHT; }
 

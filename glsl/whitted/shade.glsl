@@ -1,4 +1,4 @@
-// What a hit sends back along the ray: equation 1.19 of the course work without refraction (docs/light-model.md).
+// What a hit sends back along the ray, and where rays go on: equation 1.19 of the course work (docs/light-model.md).
 
 // Overflow stops at the largest number, so that no sum becomes infinite or, by inf - inf, NaN.
 Real3 limited(Real3 color) { return min(color, Real3(LARGEST)); }
@@ -12,6 +12,44 @@ Real3 mirrored(Real3 direction, Real3 normal) {
 Real fifth_power(Real x) {
     Real square = x * x;
     return square * square * x;
+}
+
+// x to the power of n_256 / 256, for x from 0 to 1, by squares and square roots: `pow` is coarse, and there is none of
+// doubles. The relative error is about that of x times the exponent.
+Real power(Real x, uint n_256) {
+    Real result = 1.0, square = x, root = x;
+    uint whole = n_256 >> 8u;
+    [[unroll]] for (uint bit = 0u; bit <= 10u; bit++) {
+        result *= (whole >> bit & 1u) != 0u ? square : Real(1.0);
+        square *= square;
+    }
+    [[unroll]] for (uint bit = 1u; bit <= 8u; bit++) {
+        root = sqrt(root);
+        result *= (n_256 >> (8u - bit) & 1u) != 0u ? root : Real(1.0);
+    }
+    return result;
+}
+
+// The direction of the refracted ray by Snell's law, for a unit direction and a unit normal towards the side that it
+// comes from; refractive indices of that side and of the other. False where all is reflected.
+//
+// With r = from / to and c the cosine here, the cosine there is sqrt(1 - r^2 * (1 - c^2)) = sqrt((r * c)^2 - (r^2 - 1)),
+// and the direction r * d + (r * c - cosine there) * n. Nothing cancels: a difference of squares is a product, that of
+// r * c and the cosine there is the quotient of r^2 - 1 and their sum, and r^2 - 1 comes from the indices' difference.
+bool refracted(Real3 direction, Real3 normal, Real from, Real to, out Real3 result) {
+    result = direction;
+    if (from == to) return true;
+    precise Real ratio = from / to;
+    precise Real excess = (from - to) * (from + to) / (to * to);
+    Real cosine = max(-dot(direction, normal), Real(0.0));
+    precise Real near = ratio * cosine;
+    Real root = sqrt(max(excess, Real(0.0)));
+    precise Real squared = excess > 0.0 ? (near - root) * (near + root) : near * near - excess;
+    if (squared < 0.0) return false;
+    precise Real across = excess / (near + sqrt(squared));
+    precise Real3 sum = ratio * direction + across * normal;
+    result = unit(sum);
+    return true;
 }
 
 // Unit, from a point to a light; not a number where they are one.
@@ -31,13 +69,20 @@ bool is_above(Light light, Hit hit, Real height) {
 }
 
 // What of a light that nothing hides comes back along the ray, from a surface at this cosine to it.
-Real3 direct_radiance(Material material, Real3 normal, Real3 ray_direction, Real3 light_direction, Real cosine,
-                      Light light) {
+Real3 direct_radiance(Material material, Real3 normal, Real3 ray_direction, Real3 light_direction, Real light_distance,
+                      Real cosine, Light light) {
     Real highlight = 0.0;
     if (HAS_HIGHLIGHTS) {
         Real3 mirrored_light = unit(mirrored(-light_direction, normal));
-        highlight = fifth_power(max(-dot(mirrored_light, ray_direction), Real(0.0)));
+        Real alignment = max(-dot(mirrored_light, ray_direction), Real(0.0));
+        if (HAS_SHININESS) {
+            highlight = power(alignment, material.shininess_256);
+        } else {
+            highlight = fifth_power(alignment);
+        }
     }
     Real3 received = (material.diffuse * cosine) * material.color + material.specular * highlight;
-    return received * light.intensity;
+    Real3 radiance = received * light.intensity;
+    if (HAS_ATTENUATION) radiance = limited(radiance * (light.scale / (light.slope * light_distance + light.constant)));
+    return radiance;
 }

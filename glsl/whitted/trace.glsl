@@ -1,27 +1,51 @@
 // Primary rays through all their generations, step by step.
 #include "path.glsl"
+#include "branches.glsl"
 
-// A primary ray, through the invocation's pixel of this index, or a mirrored one sets out to the nearest hit.
+// What the ray's origin lies in, not counting the solid whose surface it leaves: only such solids come before all others.
+void ask_for_medium(inout Path path) {
+    path.purpose = TO_MEDIUM;
+    path.medium_outside = 1.0;
+    path.medium_t = LARGEST;
+    path.search = SearchState(0.0, 0u, -1, false);
+}
+
+// Sets a path's next ray out to the nearest hit: a primary one, through the invocation's pixel of this index, or one on
+// from the last hit.
 void set_out(bool is_primary, uint pixel_index, View view, inout Path path) {
-    Real3 direction;
-    if (is_primary) {
-        uvec2 pixel = tile_pixel(pixel_index);
-        direction = primary_direction(pixel, view);
-        path.purpose = is_there(pixel) ? TO_NEAREST : ENDED;
-        path.color = Real3(0.0);
-        path.weight = 1.0;
-        path.generation = 0u;
-        path.origin_surface = OriginSurface(NOTHING, CURVED, false);
-    } else if (HAS_REFLECTIONS) {
-        direction = mirrored(path.incident, path.nearest.normal);
-        path.purpose = TO_NEAREST;
+    if (MEDIA != NO_MEDIA && !is_primary) {
+        if (path.purpose == RESUMED) resume(path);
+        else if (path.is_hit) branch(path);
+        else enter(path);
+    } else {
+        Real3 direction;
+        if (is_primary) {
+            uvec2 pixel = tile_pixel(pixel_index);
+            direction = primary_direction(pixel, view);
+            path.purpose = is_there(pixel) ? TO_NEAREST : ENDED;
+            path.color = Real3(0.0);
+            path.weight = 1.0;
+            path.generation = 0u;
+            path.origin_surface = OriginSurface(NOTHING, CURVED, false);
+        } else if (HAS_REFLECTIONS) {
+            direction = mirrored(path.incident, path.nearest.normal);
+            path.purpose = TO_NEAREST;
+        }
+        direction = unit(direction);
+        Real3 origin = is_primary ? view.position : path.nearest.point;
+        path.ray = Ray(origin, is_primary ? view.position_error : Real3(0.0), direction);
     }
-    direction = unit(direction);
-    Real3 origin = is_primary ? view.position : path.nearest.point;
-    path.ray = Ray(origin, is_primary ? view.position_error : Real3(0.0), direction);
-    if (LIGHT_SPHERES > 0u) path.may_see_light_sphere = is_primary && may_meet_a_light_sphere(path.ray, path.light);
+    bool is_from_camera = is_primary || (MEDIA == NESTED && path.generation == 0u);
+    if (LIGHT_SPHERES > 0u)
+        path.may_see_light_sphere = is_from_camera && may_meet_a_light_sphere(path.ray, path.light);
     path.is_hit = false;
     path.search = search_up_to(FAR, path.origin_surface);
+    if (MEDIA != NO_MEDIA && is_primary) {
+        path.pending = 0u;
+        path.medium = 1.0;
+        bool asks = MEDIA == NESTED && HAS_REFLECTIONS && view.may_be_in_medium;
+        if (asks && path.purpose != ENDED) ask_for_medium(path);
+    }
 }
 
 // What the search brought up for a path's ray.
@@ -48,15 +72,28 @@ Candidate next_candidate(Path path) {
 // A generation is over. Decides what the next ray is cast for.
 void end_generation(inout Path path) {
     path.color = limited(path.color + path.weight * path.local_radiance);
-    path.weight *= path.material.specular;
     path.generation++;
-    bool goes_further = path.is_hit && path.weight > Real(frame.min_throughput) && path.generation < frame.depth;
-    path.purpose = HAS_REFLECTIONS && goes_further ? REFLECTED : ENDED;
+    if (MEDIA == NO_MEDIA) {
+        path.weight *= path.material.reflection;
+        bool goes_further = path.is_hit && path.weight > Real(frame.min_throughput) && path.generation < frame.depth;
+        path.purpose = HAS_REFLECTIONS && goes_further ? ONWARD : ENDED;
+    } else {
+        bool has_rays = path.material.reflection > 0.0 || path.material.transmission > 0.0;
+        bool goes_further = HAS_REFLECTIONS && path.is_hit && has_rays && path.generation < frame.depth;
+        path.purpose = goes_further ? ONWARD : (path.pending > 0u ? RESUMED : ENDED);
+        if (MEDIA == NESTED && goes_further && path.material.transmission > 0.0 && path.nearest.inside) {
+            path.ray = Ray(path.nearest.point, Real3(0.0), path.incident);
+            path.origin_surface = OriginSurface(path.nearest.slot, path.nearest.face, false);
+            ask_for_medium(path);
+        }
+    }
 }
 
 // A ray that meets nothing more ends its generation at once, if nothing is left to be shaded; else this is true.
 bool is_left_to_shade(Candidate candidate, Real3 background, inout Path path) {
-    bool is_through = path.purpose != ENDED && !candidate.is_there, is_shadow = is_shadow_ray(path);
+    bool is_asking = asks_for_medium(path), is_shadow = is_shadow_ray(path);
+    if (is_asking && !candidate.is_there) path.purpose = ONWARD;
+    bool is_through = path.purpose != ENDED && !candidate.is_there && !is_asking;
     bool has_lights_left = LIGHTS > 1u && path.light_index < frame.light_count;
     bool has_something = path.is_hit || (LIGHT_SPHERES > 0u && path.may_see_light_sphere);
     bool is_left = is_through && (is_shadow ? has_lights_left : has_something);
@@ -70,13 +107,13 @@ bool is_left_to_shade(Candidate candidate, Real3 background, inout Path path) {
 // Solves a candidate exactly and keeps it if it is the nearest so far. True where the ray has come to its end; then its
 // radiance is begun, or a shadow ray's light is added.
 bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path path) {
-    bool is_shadow = is_shadow_ray(path), is_own_due = path.search.is_own_due;
+    bool is_shadow = is_shadow_ray(path), is_asking = asks_for_medium(path), is_own_due = path.search.is_own_due;
     // What the ray meets where it meets no solid before.
     Real3 seen = view.background;
     Real seen_t = LARGEST;
     if (LIGHT_SPHERES > 0u) {
         Real3 intensity;
-        bool looks = path.may_see_light_sphere && !is_shadow && (candidate.is_there || is_left_to_shade);
+        bool looks = path.may_see_light_sphere && !is_shadow && !is_asking && (candidate.is_there || is_left_to_shade);
         Real light_sphere_t = light_sphere_ahead(path.ray, path.light, looks, intensity);
         if (looks && light_sphere_t < LARGEST) {
             seen = intensity;
@@ -90,7 +127,7 @@ bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path pat
     uint slot = is_own_due ? path.origin_surface.slot : (candidate.is_there ? found_slot : 0u);
     bool is_met = meet(slot, path.ray, path.origin_surface, hit) && candidate.is_there;
     Material material = material(slot);
-    if (!is_shadow && is_met && (LIGHT_SPHERES == 0u || hit.t <= seen_t) &&
+    if (!is_shadow && !is_asking && is_met && (LIGHT_SPHERES == 0u || hit.t <= seen_t) &&
         (!path.is_hit || is_nearer(hit, material.primitive, path.nearest, path.material.primitive, path.ray))) {
         path.nearest = hit;
         path.material = material;
@@ -99,19 +136,38 @@ bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path pat
     }
     bool hides_light =
         HAS_SHADOWS && is_shadow && is_met && is_before(hit, path.ray, path.light.position, path.light_distance);
+    if (MEDIA != NO_MEDIA && hides_light && material.transmission > 0.0) {
+        // What comes through both surfaces, or through the one that is crossed.
+        Real3 place = path.light.position;
+        bool leaves = !hit.inside && material.refractive_index > 0.0 &&
+                      path.light_distance - hit.t_far > SURFACE_ERROR * (largest_component(place) + hit.size);
+        path.direct *= leaves ? material.transmission * material.transmission : material.transmission;
+        hides_light = false;
+    }
+    bool is_tie = hit.t == path.medium_t && material.primitive < path.medium_primitive;
+    if (is_asking && is_met && hit.inside && (hit.t < path.medium_t || is_tie)) {
+        path.medium_t = hit.t;
+        path.medium_primitive = material.primitive;
+        path.medium_outside = material.refractive_index;
+    }
 
     // Whether another candidate may come before what is known.
     bool goes_on = candidate.is_there && !hides_light &&
                    (is_own_due || candidate.found.next_key <= last_key(path.search.limit));
-    path.search.after_key = is_own_due ? 0u : candidate.found.key;
-    path.search.after_group = is_own_due ? -1 : candidate.found.group;
-    path.search.is_own_due = is_own_due && !candidate.is_there;
+    // A path that has just come to ask for a medium has no candidate of that ray yet.
+    if (!is_asking || candidate.is_there) {
+        path.search.after_key = is_own_due ? 0u : candidate.found.key;
+        path.search.after_group = is_own_due ? -1 : candidate.found.group;
+        path.search.is_own_due = is_own_due && !candidate.is_there;
+    }
 
-    bool is_done = is_left_to_shade || (candidate.is_there && !goes_on);
+    if (is_asking && candidate.is_there && !goes_on) path.purpose = ONWARD;
+    bool is_done = !is_asking && (is_left_to_shade || (candidate.is_there && !goes_on));
     if (candidate.is_there && is_done && is_shadow && !hides_light)
         path.local_radiance = limited(path.local_radiance + path.direct);
     if (is_done && !is_shadow) {
         path.local_radiance = path.is_hit ? path.material.ambient * path.material.color : seen;
+        if (HAS_AMBIENT_LIGHT && path.is_hit) path.local_radiance = limited(path.local_radiance * view.ambient_light);
         path.origin_surface = OriginSurface(path.nearest.slot, path.nearest.face, path.nearest.inside);
         path.incident = path.ray.direction;
         path.light_index = 0u;
@@ -138,7 +194,8 @@ bool casts_shadow_ray(bool is_done, inout Path path) {
             // A light at the hit point gives nothing.
             bool shines = is_seeking && light_distance > 0.0 && cosine > 0.0 &&
                           (path.nearest.face == CURVED || is_above(next, path.nearest, cosine * light_distance));
-            Real3 direct = direct_radiance(path.material, path.nearest.normal, path.incident, to_light, cosine, next);
+            Real3 direct = direct_radiance(path.material, path.nearest.normal, path.incident, to_light, light_distance,
+                                           cosine, next);
             // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
             bool is_faint = path.weight * largest_component(direct) <= Real(frame.min_shadowed);
             if (HAS_SHADOWS && shines && !is_faint) {
@@ -180,7 +237,7 @@ void trace(View view) {
         for (;;) {
             iterations++;
             bool starts = is_packet_at_rest && begun < PIXELS;
-            if (starts || (HAS_REFLECTIONS && path.purpose == REFLECTED)) {
+            if (starts || is_to_set_out(path)) {
                 if (starts && begun > 0u) put(begun - 1u, path.color, true);
                 set_out(starts, begun, view, path);
                 begun += starts ? 1u : 0u;

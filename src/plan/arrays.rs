@@ -1,15 +1,13 @@
 //! What a scene takes of a device's memory.
 
-use super::{Limits, PlanError, Precision, Structure};
+use super::{LightFeatures, Limits, PlanError, Precision, Structure};
 use crate::scene::SolidKind;
 
-/// Rows of four numbers in the kernel's records: of a solid of each kind, of its proxy, of a box around solids, a
-/// material, the view and a light (`glsl/records/scene.glsl`).
+/// Rows of four numbers in the kernel's records: of a solid of each kind, of its proxy, of a box around solids and of
+/// the view (`glsl/records/scene.glsl`).
 const SOLID_ROWS: [usize; 4] = [1, 7, 4, 4];
 const CLOSE_UP_ROWS: [usize; 4] = [3, 7, 5, 4];
-pub(crate) const MATERIAL_ROWS: usize = 2;
-pub(crate) const VIEW_ROWS: usize = 6;
-pub(crate) const LIGHT_ROWS: usize = 2;
+pub(crate) const VIEW_ROWS: usize = 7;
 const PROXY_ROWS: [usize; 4] = [1, 2, 2, 2];
 const BOX_ROWS: usize = 2;
 
@@ -22,6 +20,7 @@ pub(crate) fn solid_row_count(kind: SolidKind, is_close_up: bool) -> usize {
 pub(super) fn check_arrays(
     counts: [usize; 4],
     lights: usize,
+    light_features: LightFeatures,
     precision: Precision,
     is_close_up: bool,
     limits: &Limits,
@@ -42,12 +41,12 @@ pub(super) fn check_arrays(
         Precision::F64 => 32,
     };
     let own = [
-        ("view and lights", VIEW_ROWS + LIGHT_ROWS * lights),
+        ("view and lights", VIEW_ROWS + light_features.light_rows() * lights),
         ("spheres", spheres),
         ("boxes", boxes),
         ("cylinders", cylinders),
         ("cones", cones),
-        ("materials", MATERIAL_ROWS * counts.map(whole).iter().sum::<usize>()),
+        ("materials", light_features.material_rows() * counts.map(whole).iter().sum::<usize>()),
     ];
     // The proxies are of `f32` for either precision.
     let proxies = ("proxies", 16 * (0..4).map(of_kind).sum::<usize>() as u64);

@@ -1,6 +1,6 @@
 //! What an allowed error buys (docs/light-model.md, «What an allowed error leaves out»).
 //!
-//! A pixel is Σ T·E over the generations of its ray, T being the product of the speculars met before. Three things may
+//! A pixel is Σ T·E over the generations of its rays, T being the product of the weights met before. Three things may
 //! be left out of it, each for a part of the allowed error, and the parts add up: none of them turns a ray, so one cut
 //! leaves the weights and the bounds of the others as they are. Where sums are clamped at the largest number, errors
 //! only shrink, for a clamp brings no two numbers farther apart.
@@ -74,7 +74,8 @@ impl Bounds {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Transport {
     background: DVec3,
-    /// Of lights that give any light, linear RGB.
+    ambient_light: DVec3,
+    /// Of lights that give any light, the most that reaches a point, linear RGB.
     intensities: Vec<DVec3>,
     /// Each once.
     materials: Vec<Material>,
@@ -84,13 +85,26 @@ impl Transport {
     pub fn of(scene: &Scene) -> Self {
         let mut seen = HashSet::new();
         let mut is_new = |material: &Material| {
-            let Material { color, ambient, diffuse, specular } = *material;
-            seen.insert([color.x, color.y, color.z, ambient, diffuse, specular].map(f64::to_bits))
+            let Material {
+                color,
+                ambient,
+                diffuse,
+                specular,
+                reflection: _,
+                shininess,
+                transmission,
+                refractive_index,
+            } = *material;
+            let weights = [ambient, diffuse, specular, material.reflection(), transmission];
+            let numbers = color.to_array().into_iter().chain(weights).chain([shininess, refractive_index]);
+            seen.insert(numbers.map(f64::to_bits).collect::<Vec<_>>())
         };
         let materials = scene.primitives.iter().map(|primitive| &primitive.material);
-        let intensities = scene.lights.iter().map(|light| light.intensity);
+        // At no distance, the light is divided by the constant alone.
+        let intensities = scene.lights.iter().map(|light| light.intensity / light.distance_constant.unwrap_or(1.0));
         Self {
             background: scene.background,
+            ambient_light: scene.ambient_light,
             intensities: intensities.filter(|&intensity| intensity != DVec3::ZERO).collect(),
             materials: materials.filter(|material| is_new(material)).cloned().collect(),
         }
@@ -102,8 +116,23 @@ impl Transport {
         self.intensities.iter().any(|&intensity| received * intensity != DVec3::ZERO)
     }
 
-    pub fn largest_specular(&self) -> f64 {
-        self.materials.iter().map(|material| material.specular).fold(0.0, f64::max)
+    /// Whether any surface shows highlights, if it is lit.
+    pub fn has_specular(&self) -> bool {
+        self.materials.iter().any(|material| material.specular > 0.0)
+    }
+
+    /// Whether any surface lets light through.
+    pub fn has_transmission(&self) -> bool {
+        self.materials.iter().any(|material| material.transmission > 0.0)
+    }
+
+    /// The most that the rays of the next generation weigh together.
+    pub fn largest_gain(&self) -> f64 {
+        self.materials.iter().map(gain).fold(0.0, f64::max)
+    }
+
+    fn largest_shininess(&self) -> f64 {
+        self.materials.iter().map(|material| material.shininess).fold(1.0, f64::max)
     }
 
     /// No ray of `depth` generations is brighter in any channel.
@@ -111,9 +140,10 @@ impl Transport {
         self.ceilings(depth, true)[depth as usize].max_element()
     }
 
-    fn least_reflecting_specular(&self) -> f64 {
-        let reflecting = self.materials.iter().map(|material| material.specular).filter(|&specular| specular > 0.0);
-        reflecting.fold(1.0, f64::min)
+    /// The least that a ray of the next generation weighs; 1 where there is none.
+    fn least_weight(&self) -> f64 {
+        let weights = self.materials.iter().flat_map(|material| [material.reflection(), material.transmission]);
+        weights.filter(|&weight| weight > 0.0).fold(1.0, f64::min)
     }
 
     /// The largest factor between a light's intensity and what a surface sends back of it: kd·C + ks.
@@ -124,8 +154,9 @@ impl Transport {
     fn ceilings(&self, depth: u32, highlights: bool) -> Vec<DVec3> {
         let intensity: DVec3 = self.intensities.iter().sum();
         let surface = |material: &Material| Surface {
-            specular: material.specular,
-            local_radiance: material.ambient * material.color + received(material, highlights) * intensity,
+            gain: gain(material),
+            local_radiance: material.ambient * material.color * self.ambient_light
+                + received(material, highlights) * intensity,
         };
         ceilings(self.background, &self.materials.iter().map(surface).collect::<Vec<_>>(), depth)
     }
@@ -133,13 +164,16 @@ impl Transport {
     /// The most that all highlights on a path add.
     fn highlight_ceiling(&self, depth: u32) -> f64 {
         let intensity: DVec3 = self.intensities.iter().sum();
-        let surface = |material: &Material| Surface {
-            specular: material.specular,
-            local_radiance: material.specular * intensity,
-        };
+        let surface =
+            |material: &Material| Surface { gain: gain(material), local_radiance: material.specular * intensity };
         let surfaces: Vec<_> = self.materials.iter().map(surface).collect();
         ceilings(DVec3::ZERO, &surfaces, depth)[depth as usize].max_element()
     }
+}
+
+/// What the mirrored and the refracted ray weigh together.
+fn gain(material: &Material) -> f64 {
+    material.reflection() + material.transmission
 }
 
 /// kd·C + ks, or without highlights kd·C.
@@ -212,10 +246,11 @@ pub(super) fn spend(
 }
 
 /// How much a kernel's numbers may exceed the model's, relatively: a weight is rounded twice a generation (the stored
-/// specular, the product), and what a light sends is a sum over lights of products of a few factors, among them the
-/// fifth power of a cosine that is off by some 8u.
+/// reflection or transmission, the product), and what a light sends is a sum over lights of products of a few factors,
+/// among them a cosine that is off by some 8u, raised to the highlight's exponent.
 fn rounding_slack(transport: &Transport, depth: u32, precision: Precision) -> f64 {
-    (4.0 * f64::from(depth) + transport.intensities.len() as f64 + 64.0) * precision.unit_roundoff()
+    let of_highlight = 8.0 * transport.largest_shininess();
+    (4.0 * f64::from(depth) + transport.intensities.len() as f64 + 32.0 + of_highlight) * precision.unit_roundoff()
 }
 
 /// The largest `f32` that is not above and a normal number, or 0.
@@ -236,11 +271,15 @@ struct GenerationCut {
 
 /// The largest weight τ for whose sake no pixel loses more than `error`; None where no path gets light enough.
 ///
-/// With k and K the least and the largest specular that reflects, a path's weight after m reflections is from kᵐ to Kᵐ.
-/// So where τ < kᵐ⁻¹ none is cut before it has been reflected m times: it weighs at most min(τ, Kᵐ) then, and has
+/// With k the least weight of a ray of the next generation and K the largest gain, a path's weight after m hits is from
+/// kᵐ to Kᵐ. So where τ < kᵐ⁻¹ none is cut before it has met m surfaces: it weighs at most min(τ, Kᵐ) then, and has
 /// `depth` − m generations to go, of which the ceiling is known.
+///
+/// Where surfaces refract, a pixel has many paths. Those cut lie on different branches, so that together they weigh no
+/// more than all of generation m, Kᵐ, or, where K is above 1, all of the last one.
 fn cut_generations(transport: &Transport, error: f64, depth: u32, highlights: bool) -> Option<GenerationCut> {
-    let (least, largest) = (transport.least_reflecting_specular(), transport.largest_specular());
+    let (least, largest) = (transport.least_weight(), transport.largest_gain());
+    let branches = transport.has_transmission();
     if least == 1.0 || largest == 0.0 {
         return None;
     }
@@ -248,14 +287,19 @@ fn cut_generations(transport: &Transport, error: f64, depth: u32, highlights: bo
     // Below a power by more than its rounding.
     let below = |power: f64| power * (1.0 - 2f64.powi(-20));
     let (mut least_power, mut largest_power) = (1.0, 1.0);
-    for reflections in 1..depth {
+    for hits in 1..depth {
         let uncut_power = below(least_power);
         least_power *= least;
         largest_power *= largest;
-        let ceiling = ceilings[(depth - reflections) as usize].max_element();
-        let weight = if largest_power * ceiling <= error { uncut_power } else { uncut_power.min(error / ceiling) };
+        let ceiling = ceilings[(depth - hits) as usize].max_element();
+        let together = if branches { largest_power.max(largest.powi(depth as i32 - 1)) } else { largest_power };
+        let weight = match together * ceiling <= error {
+            true => uncut_power,
+            false if branches => 0.0,
+            false => uncut_power.min(error / ceiling),
+        };
         if weight >= least_power {
-            let bound = weight.min(largest_power) * ceiling;
+            let bound = if branches { together } else { weight.min(largest_power) } * ceiling;
             return Some(GenerationCut { weight, bound, generations: longest(largest, weight, depth) });
         }
     }
@@ -263,10 +307,10 @@ fn cut_generations(transport: &Transport, error: f64, depth: u32, highlights: bo
 }
 
 /// Generations of a path that keeps the largest weight, up to where it is not above `weight`.
-fn longest(largest_specular: f64, weight: f64, depth: u32) -> u32 {
+fn longest(largest_gain: f64, weight: f64, depth: u32) -> u32 {
     let mut power = 1.0;
     for reflections in 1..depth {
-        power *= largest_specular;
+        power *= largest_gain;
         if power <= weight {
             return reflections;
         }
@@ -278,7 +322,9 @@ fn longest(largest_specular: f64, weight: f64, depth: u32) -> u32 {
 struct Shadows {
     /// Of each light, the most that any surface sends back.
     direct: Vec<DVec3>,
-    largest_specular: f64,
+    largest_gain: f64,
+    /// Whether a path may go on by two rays.
+    branches: bool,
     generations: u32,
 }
 
@@ -286,18 +332,21 @@ impl Shadows {
     fn new(transport: &Transport, generations: u32, highlights: bool) -> Self {
         let received = transport.most_received(highlights);
         let direct = transport.intensities.iter().map(|&intensity| received * intensity).collect();
-        Self { direct, largest_specular: transport.largest_specular(), generations }
+        let (largest_gain, branches) = (transport.largest_gain(), transport.has_transmission());
+        Self { direct, largest_gain, branches, generations }
     }
 
-    /// ½·Σ min(ε, Kᵍ·direct) over generations g and lights: half of each light's part, which is at most ε where the ray
-    /// is left out.
+    /// ½·Σ min(Nᵍ·ε, Kᵍ·direct) over generations g and lights, N being the rays by which a path may go on: half of each
+    /// light's part, which is at most ε where a shadow ray is left out.
     fn bound(&self, min_shadowed: f64) -> f64 {
         let mut sum = DVec3::ZERO;
-        let mut weight = 1.0;
+        let (mut weight, mut paths) = (1.0, 1.0);
         for _ in 0..self.generations {
-            let of_lights = self.direct.iter().map(|&direct| DVec3::splat(min_shadowed).min(weight * direct));
+            let left_out = DVec3::splat(paths * min_shadowed);
+            let of_lights = self.direct.iter().map(|&direct| left_out.min(weight * direct));
             sum += of_lights.sum::<DVec3>();
-            weight *= self.largest_specular;
+            weight *= self.largest_gain;
+            paths *= if self.branches { 2.0 } else { 1.0 };
         }
         0.5 * sum.max_element()
     }
@@ -308,8 +357,9 @@ impl Shadows {
         if self.bound(largest) <= error {
             return f64::INFINITY;
         }
-        // The bound is at most ½·ε for each light in each generation, and at least half of one ε.
-        let mut low = 2.0 * error / (f64::from(self.generations) * self.direct.len() as f64);
+        // The bound is at most ½·ε for each light in each generation of a single path, and at least half of one ε.
+        let of_one_path = 2.0 * error / (f64::from(self.generations) * self.direct.len() as f64);
+        let mut low = if self.branches { 0.0 } else { of_one_path };
         let mut high = (2.0 * error).min(largest);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);

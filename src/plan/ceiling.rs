@@ -4,10 +4,11 @@ use glam::DVec3;
 
 use crate::scene::Scene;
 
-/// What one kind of hit can send back at most: its own light, and the weight of what it mirrors.
+/// What one kind of hit can send back at most: its own light, and the weight of what it mirrors and lets through.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Surface {
-    pub specular: f64,
+    /// Of all rays of the next generation together.
+    pub gain: f64,
     /// Linear RGB.
     pub local_radiance: DVec3,
 }
@@ -20,14 +21,14 @@ pub(super) fn brightest_source(scene: &Scene) -> f64 {
 
 /// Vₙ for n = 0…`depth`: no ray of n generations is brighter, in linear RGB.
 ///
-/// V₀ = 0, and Vₙ = max(background, maxₘ(Eₘ + ksₘ·Vₙ₋₁)): a ray ends in the background, or meets a surface m and is
-/// reflected with n − 1 generations left. For one surface that is E·(1 − kⁿ)/(1 − k), or n·E at k = 1; for
+/// V₀ = 0, and Vₙ = max(background, maxₘ(Eₘ + gₘ·Vₙ₋₁)): a ray ends in the background, or meets a surface m and goes on,
+/// mirrored and refracted, with a gain of g = reflection + transmission and n − 1 generations left. For one surface that is E·(1 − kⁿ)/(1 − k), or n·E at k = 1; for
 /// several it is less than the largest E with the largest k.
 pub(super) fn ceilings(background: DVec3, surfaces: &[Surface], depth: u32) -> Vec<DVec3> {
     let mut ceilings = vec![DVec3::ZERO; depth as usize + 1];
     for channel in 0..3 {
         let lines =
-            surfaces.iter().map(|surface| Line { slope: surface.specular, height: surface.local_radiance[channel] });
+            surfaces.iter().map(|surface| Line { slope: surface.gain, height: surface.local_radiance[channel] });
         let lines = highest_lines(lines.collect());
         let mut highest = 0;
         let mut ceiling = 0.0;
@@ -85,8 +86,8 @@ fn highest_lines(mut lines: Vec<Line>) -> Vec<Line> {
 mod tests {
     use super::*;
 
-    fn surface(specular: f64, local_radiance: f64) -> Surface {
-        Surface { specular, local_radiance: DVec3::new(local_radiance, 2.0 * local_radiance, 0.0) }
+    fn surface(gain: f64, local_radiance: f64) -> Surface {
+        Surface { gain, local_radiance: DVec3::new(local_radiance, 2.0 * local_radiance, 0.0) }
     }
 
     fn is_just_above(bound: f64, value: f64) -> bool {
@@ -128,7 +129,7 @@ mod tests {
             let bounds = ceilings(DVec3::splat(0.01), &surfaces, 60);
             let mut expected = 0.0;
             for bound in &bounds[1..] {
-                let reflected = surfaces.iter().map(|surface| surface.local_radiance.x + surface.specular * expected);
+                let reflected = surfaces.iter().map(|surface| surface.local_radiance.x + surface.gain * expected);
                 expected = reflected.fold(0.01, f64::max);
                 assert!(is_just_above(bound.x, expected), "{bound} is not {expected}: {surfaces:?}");
             }

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::solids::is_rotated;
-use super::{Plan, Structure};
+use super::{LightFeatures, Media, Plan, Structure};
 use crate::algorithm::Precision;
 use crate::scene::{BoundingSphere, Primitive, SceneSpace, SolidKind};
 
@@ -32,6 +32,10 @@ pub struct Features {
     pub samples: bool,
     /// That an invocation traces, one after another.
     pub pixels: u32,
+    /// Parts of the light model beyond the course work's.
+    pub light: LightFeatures,
+    /// Rays that may wait while a path goes on by another, at most; 1 where none does.
+    pub pending: u32,
 }
 
 /// The solids that the kernel sees of a scene.
@@ -81,6 +85,18 @@ impl Plan {
             reflections: self.generations.choice > 1,
             samples: self.settings.samples > 1,
             pixels: self.pixels.choice,
+            light: LightFeatures {
+                shininess: self.light_model.shininess.choice,
+                attenuation: self.light_model.attenuation.choice,
+                ambient_light: self.light_model.ambient_light.choice,
+                media: self.light_model.media.choice,
+            },
+            pending: most_pending(self.light_model.media.choice, self.generations.choice),
         }
     }
+}
+
+/// A path may leave one ray behind in each generation but the last.
+pub(crate) fn most_pending(media: Media, generations: u32) -> u32 {
+    if media == Media::None { 1 } else { (generations - 1).max(1) }
 }

@@ -16,6 +16,7 @@ mod budget;
 mod ceiling;
 mod features;
 mod lengths;
+mod light_model;
 mod light_spheres;
 mod precision;
 mod reason;
@@ -26,11 +27,14 @@ mod tiling;
 mod traversal_cost;
 
 pub use crate::algorithm::Precision;
-pub(crate) use arrays::{LIGHT_ROWS, MATERIAL_ROWS, VIEW_ROWS, solid_row_count};
+pub(crate) use arrays::{VIEW_ROWS, solid_row_count};
 pub use budget::{Approximations, Bounds};
 pub use features::Features;
+pub(crate) use features::most_pending;
 pub use lengths::scene_space;
 pub(crate) use lengths::scene_space_within;
+pub(crate) use light_model::may_be_in_a_solid;
+pub use light_model::{LightFeatures, LightModel, Media};
 pub use light_spheres::Area;
 pub use reason::{Line, Reason};
 pub use rounding::{Cause, Near, Rounding};
@@ -135,6 +139,8 @@ pub struct Plan {
     pub shadows: Decision<bool>,
     /// Whether highlights are drawn.
     pub highlights: Decision<bool>,
+    /// What else of the light model there is.
+    pub light_model: LightModel,
     /// Generations of a ray, the primary one included. Where it is 1, nothing is reflected.
     pub generations: Decision<u32>,
     /// Also that of `kernel`.
@@ -177,14 +183,15 @@ impl Plan {
         let row = settings.algorithm.description();
         let kernel_in = |precision| settings.algorithm.kernel(precision).ok_or(PlanError::NotOnDevice(row.name));
         let transport = Transport::of(scene);
-        let is_lone = is_lone_and_seen_from_outside(scene);
+        let is_lone = is_lone_and_seen_from_outside(scene) && !transport.has_transmission();
         let lengths = Lengths::of(scene);
         let (mut precision, rounding) = precision::choose(&lengths, settings, size, limits)?;
         let mut kernel = kernel_in(precision.choice)?;
         let mut kept = Kept::of(&scene.primitives, precision.choice, &lengths.space(kernel));
+        let light_features = LightFeatures::of(scene);
         let fits = |kept: &Kept, kernel: Kernel| {
             let is_close_up = lengths.close_up(kernel).is_some();
-            check_arrays(kept.counts, scene.lights.len(), kernel.precision(), is_close_up, limits)
+            check_arrays(kept.counts, scene.lights.len(), light_features, kernel.precision(), is_close_up, limits)
         };
         // A wrong picture with a word is better than none.
         if matches!(precision.reason, Reason::RoundingSpoils { .. } | Reason::RoundingIsUnknown { .. })
@@ -207,6 +214,8 @@ impl Plan {
         let Spent { approximations, bounds, .. } = spent;
         let generations = approximated_generations(generations, &spent);
         let light_spheres = light_spheres::decide(scene, size);
+        let highlights = approximated_highlights(highlights, &spent);
+        let light_model = LightModel::decide(scene, generations.choice);
         let approximations = if row.approximates {
             Approximations {
                 light_spheres: light_spheres.choice > 0,
@@ -228,7 +237,8 @@ impl Plan {
             light_spheres,
             lights,
             shadows,
-            highlights: approximated_highlights(highlights, &spent),
+            highlights,
+            light_model,
             close_up: lengths.close_up(kernel),
             precision,
             rounding,
@@ -319,7 +329,7 @@ fn shadows(scene: &Scene, is_lit: bool, is_lone: bool) -> Decision<bool> {
 }
 
 fn highlights(transport: &Transport, is_lit: bool) -> Decision<bool> {
-    let (choice, reason) = match (is_lit, transport.largest_specular() > 0.0) {
+    let (choice, reason) = match (is_lit, transport.has_specular()) {
         (false, _) => (false, Reason::NothingIsLit),
         (true, false) => (false, Reason::NothingIsSpecular),
         (true, true) => (true, Reason::SomethingIsSpecular),
@@ -346,8 +356,8 @@ fn generations(scene: &Scene, settings: &RenderSettings, transport: &Transport, 
     }
     let (choice, reason) = if scene.primitives.is_empty() {
         (1, Reason::NoSolids)
-    } else if transport.largest_specular() == 0.0 {
-        (1, Reason::NothingIsSpecular)
+    } else if transport.largest_gain() == 0.0 {
+        (1, if transport.has_specular() { Reason::NothingReflects } else { Reason::NothingIsSpecular })
     } else if transport.ceiling(asked.choice) == 0.0 || (is_lone && scene.background == DVec3::ZERO) {
         (1, Reason::ReflectionsAreBlack)
     } else if is_lone {

@@ -71,6 +71,35 @@ pub enum Reason {
     NothingIsSpecular,
     /// Of highlights: some material's specular is above 0.
     SomethingIsSpecular,
+    /// Of generations: some material's specular is above 0, but all rays end at the first hit.
+    NothingReflects,
+    /// Of exponents: all highlights have the course work's.
+    ExponentIsFive,
+    /// Of exponents: some highlight has another.
+    OwnExponents,
+    /// Of attenuation: no light has a distance constant.
+    NoLightFades,
+    /// Of attenuation.
+    LightsFade {
+        /// With a distance constant.
+        lights: usize,
+    },
+    /// Of ambient light: it is 1, or there is nothing that it falls on.
+    AmbientLightIsWhite,
+    /// Of ambient light.
+    AmbientLightIsColored,
+    /// Of refraction: every material's transmission is 0.
+    NothingTransmits,
+    /// Of refraction: no solid that lets light through touches another or holds the camera.
+    MediaLieApart {
+        /// That let light through.
+        solids: usize,
+    },
+    /// Of refraction: what is outside of a solid may be another one.
+    MediaMayTouch {
+        /// That let light through.
+        solids: usize,
+    },
     /// All highlights together.
     HighlightsAreFaint {
         /// The most that they add to a linear channel of a pixel.
@@ -198,6 +227,20 @@ impl fmt::Display for Reason {
             Self::SolidsMayHide { solids } => write!(f, "{solids} solid(s) may lie between a hit and a light"),
             Self::NothingIsSpecular => write!(f, "no material is specular"),
             Self::SomethingIsSpecular => write!(f, "some material is specular"),
+            Self::NothingReflects => write!(f, "no material mirrors or lets light through"),
+            Self::ExponentIsFive => write!(f, "all highlights have the exponent 5"),
+            Self::OwnExponents => write!(f, "some highlight has an exponent other than 5"),
+            Self::NoLightFades => write!(f, "no light has a distance_constant"),
+            Self::LightsFade { lights } => write!(f, "{lights} light(s) have a distance_constant"),
+            Self::AmbientLightIsWhite => write!(f, "it is white, of intensity 1"),
+            Self::AmbientLightIsColored => write!(f, "it is not white of intensity 1"),
+            Self::NothingTransmits => write!(f, "no material lets light through"),
+            Self::MediaLieApart { solids } => {
+                write!(f, "{solids} solid(s) let light through, and touch neither another nor the camera")
+            }
+            Self::MediaMayTouch { solids } => {
+                write!(f, "{solids} solid(s) let light through, and may touch another or hold the camera")
+            }
             Self::HighlightsAreFaint { bound } => {
                 write!(f, "all highlights of a pixel add at most {} to a channel", Short(bound))
             }
@@ -305,7 +348,12 @@ pub struct Line {
 }
 
 impl Line {
-    fn new<T>(what: &'static str, choice: impl fmt::Display, decision: &Decision<T>, saves: Option<&str>) -> Self {
+    pub(super) fn new<T>(
+        what: &'static str,
+        choice: impl fmt::Display,
+        decision: &Decision<T>,
+        saves: Option<&str>,
+    ) -> Self {
         let (choice, why) = (choice.to_string(), decision.reason.to_string());
         Self { what, choice, why, saves: saves.map(str::to_owned) }
     }
@@ -317,13 +365,9 @@ impl Plan {
         let mut lines: Vec<Line> = SolidKind::ALL.into_iter().map(|kind| self.kind_line(kind)).collect();
         lines.push(self.axis_aligned_line());
         lines.push(Line::new("structure", structures(&self.structures.choice), &self.structures, None));
-        lines.extend([
-            self.light_spheres_line(),
-            self.lights_line(),
-            self.shadows_line(),
-            self.highlights_line(),
-            self.generations_line(),
-        ]);
+        lines.extend([self.light_spheres_line(), self.lights_line(), self.shadows_line(), self.highlights_line()]);
+        lines.extend(self.light_model.lines());
+        lines.push(self.generations_line());
         lines.push(Line::new("precision", self.precision.choice.name(), &self.precision, None));
         lines.extend(self.close_up_line());
         let [width, height] = self.workgroup.choice;

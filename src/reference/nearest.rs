@@ -47,6 +47,28 @@ impl Solids {
         self.reachable(origin_surface).any(|(_, solid, origin)| solid.hides(light_position, &ray, origin))
     }
 
+    /// Of the solids that a ray begins in, the one that it leaves first; a tie goes to the lowest index.
+    pub(super) fn innermost(&self, ray: &Ray, origin_surface: OriginSurface) -> Option<u32> {
+        let exits = self.reachable(origin_surface).filter_map(|(index, solid, origin)| {
+            let hit = solid.first_hit(ray, origin)?;
+            (hit.side == Side::Inside).then_some((index, hit.t))
+        });
+        exits.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(index, _)| index)
+    }
+
+    /// The solids between a point and a light, each with how many of its surfaces are; `origin_surface` is the point's.
+    pub(super) fn between(
+        &self,
+        light_position: DVec3,
+        point: DVec3,
+        origin_surface: OriginSurface,
+    ) -> impl Iterator<Item = (u32, u32)> {
+        let ray = Ray { origin: point, direction: light_position - point };
+        self.reachable(origin_surface)
+            .map(move |(index, solid, origin)| (index, solid.surfaces_before(light_position, &ray, origin)))
+            .filter(|(_, surfaces)| *surfaces > 0)
+    }
+
     /// The solids that a ray can meet at all, with what its origin is to each.
     fn reachable(&self, origin_surface: OriginSurface) -> impl Iterator<Item = (u32, &PreparedSolid, Origin)> {
         (0u32..).zip(&self.0).filter_map(move |(index, solid)| {

@@ -40,6 +40,17 @@ impl Path {
         self.add(5, u32::from(lit));
     }
 
+    /// Whether a ray is refracted at the hit added last, or all of it is reflected.
+    pub fn add_refraction(&mut self, refracted: bool) {
+        self.add(6, u32::from(refracted));
+    }
+
+    /// Surfaces of a primitive that a light shines through on its way to the hit added last.
+    pub fn add_crossing(&mut self, primitive: u32, surfaces: u32) {
+        self.add(7, primitive);
+        self.add(8, surfaces);
+    }
+
     pub fn signature(self) -> u64 {
         self.0
     }

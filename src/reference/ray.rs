@@ -53,10 +53,25 @@ pub struct Hit {
     pub side: Side,
 }
 
+impl Side {
+    /// The one beyond the surface.
+    pub fn other(self) -> Self {
+        match self {
+            Self::Outside => Self::Inside,
+            Self::Inside => Self::Outside,
+        }
+    }
+}
+
 impl Hit {
+    /// How a ray leaves this hit to a side.
+    pub fn left_by(&self, side: Side) -> OriginSurface {
+        OriginSurface::Surface { primitive: self.primitive, face: self.face, side }
+    }
+
     /// How a reflected or a shadow ray leaves this hit.
     pub fn origin_surface(&self) -> OriginSurface {
-        OriginSurface::Surface { primitive: self.primitive, face: self.face, side: self.side }
+        self.left_by(self.side)
     }
 }
 

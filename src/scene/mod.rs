@@ -4,6 +4,7 @@
 //! (the unit is in the field's name), colours and intensities are linear RGB.
 
 mod bounding_sphere;
+mod bounds;
 mod camera;
 mod close_up;
 mod edit;
@@ -18,6 +19,7 @@ mod text;
 mod validate;
 
 pub use bounding_sphere::{BoundingSphere, farthest_coordinate};
+pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
 pub(crate) use close_up::{BoxNearby, Curve, CylinderNearby, SphereNearby};
 pub use edit::{COURSE_PRIMITIVE_LIMIT, TooManyPrimitives, world_from_box};
@@ -38,6 +40,8 @@ pub struct Scene {
     pub camera: Camera,
     /// Linear RGB seen where a primary ray meets nothing.
     pub background: DVec3,
+    /// I_a of equation 1.19, linear RGB: multiplies every material's ambient part.
+    pub ambient_light: DVec3,
     /// Largest number of generations of a ray: 1 is the primary ray alone.
     pub max_depth: u32,
     /// In file order; at most [`LIGHT_LIMIT`].
@@ -52,6 +56,7 @@ impl Default for Scene {
         Self {
             camera: Camera::default(),
             background: DVec3::new(0.1, 0.2, 0.3),
+            ambient_light: DVec3::ONE,
             max_depth: 20,
             lights: vec![Light::default()],
             primitives: Vec::new(),

@@ -92,6 +92,7 @@ pub(super) fn check(scene: &Scene) -> Result<(), Violation<'_>> {
     check_camera(&scene.camera)?;
     let whole = Field::of(Place::Scene);
     whole.vector("background", scene.background, NOT_NEGATIVE, |v| v.min_element() >= 0.0)?;
+    whole.vector("ambient_light", scene.ambient_light, NOT_NEGATIVE, |v| v.min_element() >= 0.0)?;
     whole.rule("max_depth", (1..=DEPTH_LIMIT).contains(&scene.max_depth), DEPTH, || scene.max_depth.to_string())?;
     check_light_count(scene.lights.len())?;
     check_primitive_count(scene.primitives.len())?;
@@ -130,7 +131,11 @@ fn check_light(index: usize, light: &Light) -> Result<(), Violation<'_>> {
     let field = Field::of(Place::Light(index));
     field.any_vector("position", light.position)?;
     field.vector("intensity", light.intensity, NOT_NEGATIVE, |v| v.min_element() >= 0.0)?;
-    field.number("radius", light.radius, "must be 0 or greater", |x| x >= 0.0)
+    field.number("radius", light.radius, "must be 0 or greater", |x| x >= 0.0)?;
+    match light.distance_constant {
+        Some(constant) => field.number("distance_constant", constant, POSITIVE, |x| x > 0.0),
+        None => Ok(()),
+    }
 }
 
 fn check_primitive(index: usize, primitive: &Primitive) -> Result<(), Violation<'_>> {
@@ -166,7 +171,13 @@ fn check_primitive(index: usize, primitive: &Primitive) -> Result<(), Violation<
     field.vector("material.color", material.color, FRACTION, |v| v.min_element() >= 0.0 && v.max_element() <= 1.0)?;
     field.number("material.ambient", material.ambient, FRACTION, |x| (0.0..=1.0).contains(&x))?;
     field.number("material.diffuse", material.diffuse, FRACTION, |x| (0.0..=1.0).contains(&x))?;
-    field.number("material.specular", material.specular, FRACTION, |x| (0.0..=1.0).contains(&x))
+    field.number("material.specular", material.specular, FRACTION, |x| (0.0..=1.0).contains(&x))?;
+    field.number("material.reflection", material.reflection(), FRACTION, |x| (0.0..=1.0).contains(&x))?;
+    field
+        .number("material.shininess", material.shininess, "must be from 1 to 1024", |x| (1.0..=1024.0).contains(&x))?;
+    field.number("material.transmission", material.transmission, FRACTION, |x| (0.0..=1.0).contains(&x))?;
+    let index_rule = "must be from 0.01 to 100";
+    field.number("material.refractive_index", material.refractive_index, index_rule, |x| (0.01..=100.0).contains(&x))
 }
 
 /// The fields of one place: each check passes or says what is wrong there.

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Run, Scope};
-use crate::plan::{Features, WORKGROUP, scene_space};
+use crate::plan::{Features, LightFeatures, Media, WORKGROUP, scene_space};
 use crate::tracer::Settings;
 use crate::tracer::whitted::WhittedRecords;
 
@@ -58,7 +58,7 @@ pub(super) fn few_with_all(runs: &[Run], counts: impl Fn(State) -> bool) -> Vec<
 }
 
 /// What plans turn on and off, with whether this run has it; `None` for the course's kernel, which is always the same.
-fn states(run: &Run) -> Option<[State; 17]> {
+fn states(run: &Run) -> Option<[State; 22]> {
     let &Settings { kernel, approximations, width, height, without_boxes, samples, scale, .. } = &run.settings;
     if !kernel.description().is_of_accurate_model {
         return None;
@@ -79,6 +79,8 @@ fn states(run: &Run) -> Option<[State; 17]> {
         // A scene does not tell how it is sampled, nor whether invocations come in packets.
         samples: _,
         pixels: _,
+        pending: _,
+        light: LightFeatures { shininess, attenuation, ambient_light, media },
     } = Features::of(&records, &approximations, max_depth);
     Some([
         ("spheres", spheres),
@@ -89,6 +91,11 @@ fn states(run: &Run) -> Option<[State; 17]> {
         ("axis-aligned boxes", are_boxes_axis_aligned),
         ("close-ups", is_close_up),
         ("highlights", highlights),
+        ("own exponents", shininess),
+        ("attenuation", attenuation),
+        ("ambient light", ambient_light),
+        ("refraction", media != Media::None),
+        ("nested media", media == Media::Nested),
         ("light spheres", light_spheres > 0),
         ("lights", lights > 0),
         ("several lights", lights > 1),

@@ -42,6 +42,8 @@ pub enum Action {
     DeleteLight(usize),
     /// Linear RGB.
     SetBackground(DVec3),
+    /// Linear RGB.
+    SetAmbientLight(DVec3),
     /// From 1 to [`DEPTH_LIMIT`](crate::scene::DEPTH_LIMIT).
     SetMaxDepth(u32),
     /// The camera stays where it is.

@@ -98,6 +98,10 @@ impl Document {
         })?)
     }
 
+    pub(super) fn set_ambient_light(&mut self, color: DVec3) -> Result<(), Refusal> {
+        Ok(self.edit(Some(Field::AmbientLight), |scene| scene.ambient_light = color)?)
+    }
+
     pub(super) fn set_background(&mut self, color: DVec3) -> Result<(), Refusal> {
         Ok(self.edit(Some(Field::Background), |scene| scene.background = color)?)
     }

@@ -33,11 +33,12 @@ impl Snapshot {
 
 /// Whether two scenes differ in nothing but where the camera is.
 pub(super) fn is_same_work(one: &Scene, other: &Scene) -> bool {
-    let Scene { camera, background, max_depth, lights, primitives } = one;
+    let Scene { camera, background, ambient_light, max_depth, lights, primitives } = one;
     let Camera { position: _, direction: _, up: _, vertical_fov_degrees, projection } = camera;
     *vertical_fov_degrees == other.camera.vertical_fov_degrees
         && *projection == other.camera.projection
         && *background == other.background
+        && *ambient_light == other.ambient_light
         && *max_depth == other.max_depth
         && *lights == other.lights
         && *primitives == other.primitives
@@ -53,6 +54,7 @@ pub(super) enum Field {
     Material(usize),
     Light(usize),
     Background,
+    AmbientLight,
     MaxDepth,
     Projection,
     VerticalFov,

@@ -226,6 +226,7 @@ impl State {
             Action::SetLight(index, light) => self.edit(|document| document.set_light(index, light)),
             Action::DeleteLight(index) => self.edit(|document| document.delete_light(index)),
             Action::SetBackground(color) => self.edit(|document| document.set_background(color)),
+            Action::SetAmbientLight(color) => self.edit(|document| document.set_ambient_light(color)),
             Action::SetMaxDepth(max_depth) => self.edit(|document| document.set_max_depth(max_depth)),
             Action::SetProjection(projection) => self.edit(|document| document.set_projection(projection)),
             Action::SetVerticalFov(degrees) => self.edit(|document| document.set_vertical_fov(degrees)),
@@ -377,8 +378,8 @@ impl State {
 /// Whether it can be one of the edits that make one undo step together.
 fn is_edit(action: &Action) -> bool {
     use Action::{
-        MoveTo, Rename, Rotate, SetBackground, SetLight, SetMaterial, SetMaxDepth, SetProjection, SetSolid,
-        SetVerticalFov,
+        MoveTo, Rename, Rotate, SetAmbientLight, SetBackground, SetLight, SetMaterial, SetMaxDepth, SetProjection,
+        SetSolid, SetVerticalFov,
     };
     matches!(
         action,
@@ -388,6 +389,7 @@ fn is_edit(action: &Action) -> bool {
             | SetSolid(_)
             | SetMaterial(_)
             | SetLight(..)
+            | SetAmbientLight(_)
             | SetBackground(_)
             | SetMaxDepth(_)
             | SetProjection(_)

@@ -132,6 +132,11 @@ pub(super) struct GroupWords {
 
     pub(super) camera: &'static str,
     pub(super) background: &'static str,
+    pub(super) ambient_light: &'static str,
+    pub(super) attenuation: &'static str,
+    pub(super) own_reflection: &'static str,
+    pub(super) shininess: &'static str,
+    pub(super) refractive_index: &'static str,
     pub(super) max_depth: &'static str,
     pub(super) max_depth_hint: &'static str,
     pub(super) projection: &'static str,

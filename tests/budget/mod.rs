@@ -34,6 +34,7 @@ pub fn random_scene(seed: u64) -> Scene {
             vertical_fov_degrees: 60.0,
             ..Camera::default()
         },
+        ambient_light: DVec3::ONE,
         background: random.vector(|random| random.uniform(0.0, 1.0)),
         max_depth: [1, 4, 20, 60][random.uniform(0.0, 4.0) as usize],
         primitives,
@@ -75,10 +76,10 @@ fn faint_gloss(random: &mut Random) -> f64 {
 }
 
 fn random_material(random: &mut Random, finish: Finish) -> Material {
-    Material {
-        color: random.vector(|random| random.uniform(0.0, 1.0)),
-        ambient: random.uniform(0.0, 1.0),
-        diffuse: random.uniform(0.0, 1.0),
-        specular: finish(random),
-    }
+    Material::of_course(
+        random.vector(|random| random.uniform(0.0, 1.0)),
+        random.uniform(0.0, 1.0),
+        random.uniform(0.0, 1.0),
+        finish(random),
+    )
 }

@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 use crate::scenes::{cube, light, material, mirror, mixed_scene, primitive, scene_of_a_light, sphere};
 use glam::DVec3;
 use zerkalo::algorithm::{Algorithm, Kernel};
-use zerkalo::plan::{Area, Features, Limits, Plan, PlanError, Precision, Reason, Structure, scene_space};
+use zerkalo::plan::{
+    Area, Features, LightFeatures, Limits, Media, Plan, PlanError, Precision, Reason, Structure, scene_space,
+};
 use zerkalo::reference::{self, LIGHT_SPHERE};
 use zerkalo::scene::{Camera, Light, Material, Scene, Solid, SolidKind, gallery};
 use zerkalo::settings::RenderSettings;
@@ -456,25 +458,35 @@ fn any_scene(random: &mut crate::random::Random) -> Scene {
             _ => Solid::Cone { apex: center, axis: DVec3::Y, height: size, half_angle_degrees: 30.0 },
         };
         let [specular, diffuse] = [0, 1].map(|_| if random.chance(0.3) { 0.0 } else { random.uniform(0.0, 1.0) });
-        primitive(solid, material(0.1, diffuse, specular))
+        let mut material = material(0.1, diffuse, specular);
+        if random.chance(0.1) {
+            material.transmission = random.uniform(0.0, 1.0);
+        }
+        if random.chance(0.1) {
+            material.shininess = random.uniform(1.0, 1024.0);
+        }
+        primitive(solid, material)
     });
     let primitives = primitives.collect();
     let lights = (0..some(random, 3)).map(|_| {
         let position = random.vector(|random| random.uniform(-12.0, 12.0));
         let intensity = DVec3::splat(rare(random, 0.8));
-        Light { position, intensity, ..Light::default() }
+        let distance_constant = random.chance(0.2).then(|| random.magnitude(-3.0, 3.0));
+        Light { position, intensity, distance_constant, ..Light::default() }
     });
     let lights = lights.collect();
+    let ambient_light = if random.chance(0.2) { DVec3::splat(0.5) } else { DVec3::ONE };
     let background = DVec3::splat(rare(random, 0.2));
     let max_depth = 1 + some(random, 9) as u32;
     let camera = Camera { position: DVec3::NEG_Z * 12.0, ..Camera::default() };
-    Scene { camera, lights, primitives, background, max_depth }
+    Scene { camera, lights, primitives, background, ambient_light, max_depth }
 }
 
 #[test]
 fn a_kernel_is_compiled_for_what_the_plan_says() {
     let mut random = crate::random::Random(17);
     let (mut small, mut dark, mut close_up) = (0, 0, 0);
+    let (mut apart, mut nested, mut other_light) = (0, 0, 0);
     for number in 0..1000 {
         let scene = any_scene(&mut random);
         if scene.validate().is_err() {
@@ -493,6 +505,10 @@ fn a_kernel_is_compiled_for_what_the_plan_says() {
         small += usize::from(plan.counts.iter().sum::<usize>() < scene.primitives.len());
         dark += usize::from(records.light_count < records.light_sphere_count);
         close_up += usize::from(plan.close_up.is_some());
+        apart += usize::from(compiled.light.media == Media::Apart);
+        nested += usize::from(compiled.light.media == Media::Nested);
+        other_light += usize::from(LightFeatures { media: Media::None, ..compiled.light } != LightFeatures::default());
     }
     assert!(small > 5 && dark > 50 && close_up > 20, "{small} {dark} {close_up}: each kind is there");
+    assert!(apart > 20 && nested > 20 && other_light > 100, "{apart} {nested} {other_light}: each kind is there");
 }

@@ -164,6 +164,7 @@ fn mr_no_ray_escapes_from_a_closed_room_of_mirrors() {
                     position: DVec3::new(0.1, 0.2, 0.3),
                     ..Camera::default()
                 },
+                ambient_light: DVec3::ONE,
                 background: DVec3::ONE,
                 lights: vec![],
                 max_depth,

@@ -81,15 +81,23 @@ fn any_solid() -> impl Strategy<Value = Solid> {
 }
 
 fn any_material() -> impl Strategy<Value = Material> {
+    let optics = (proptest::option::of(fraction()), 1.0..=1024.0, fraction(), 0.01..=100.0);
     prop_oneof![
         Just(Material::default()),
+        optics.prop_map(|(reflection, shininess, transmission, refractive_index)| Material {
+            reflection,
+            shininess,
+            transmission,
+            refractive_index,
+            ..Material::default()
+        }),
         ([fraction(), fraction(), fraction()], fraction(), fraction(), fraction()).prop_map(
-            |(color, ambient, diffuse, specular)| Material {
-                color: DVec3::from_array(color),
+            |(color, ambient, diffuse, specular)| Material::of_course(
+                DVec3::from_array(color),
                 ambient,
                 diffuse,
                 specular
-            }
+            )
         ),
     ]
 }
@@ -110,18 +118,22 @@ fn any_camera() -> impl Strategy<Value = Camera> {
 fn any_scene() -> impl Strategy<Value = Scene> {
     let rgb = || [not_negative(), not_negative(), not_negative()].prop_map(DVec3::from_array);
     let radius = prop_oneof![Just(0.0), Just(0.01), not_negative()];
-    let light =
-        (any_vector(), rgb(), radius).prop_map(|(position, intensity, radius)| Light { position, intensity, radius });
+    let constant = proptest::option::of(positive());
+    let light = (any_vector(), rgb(), radius, constant).prop_map(|(position, intensity, radius, distance_constant)| {
+        Light { position, intensity, radius, distance_constant }
+    });
+    let ambient_light = prop_oneof![Just(DVec3::ONE), rgb()];
     let primitive = (any_name(), any_solid(), any_material()).prop_map(|(name, solid, material)| Primitive {
         name,
         solid,
         material,
     });
     let lights = prop_oneof![Just(vec![Light::default()]), proptest::collection::vec(light, 0..3)];
-    (any_camera(), rgb(), 1u32..=1000, lights, proptest::collection::vec(primitive, 0..6)).prop_map(
-        |(camera, background, max_depth, lights, primitives)| Scene {
+    (any_camera(), rgb(), ambient_light, 1u32..=1000, lights, proptest::collection::vec(primitive, 0..6)).prop_map(
+        |(camera, background, ambient_light, max_depth, lights, primitives)| Scene {
             camera,
             background,
+            ambient_light,
             max_depth,
             lights,
             primitives,

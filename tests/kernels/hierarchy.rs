@@ -7,10 +7,10 @@ use glam::DVec3;
 use rayon::prelude::*;
 use zerkalo::frame::Frame;
 use zerkalo::reference::{BACKGROUND, LIGHT_SPHERE};
-use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, SceneSpace, Solid, SolidKind, gallery};
+use zerkalo::scene::{Bounds, Camera, Light, Material, Primitive, Scene, SceneSpace, Solid, SolidKind, gallery};
 use zerkalo::tracer::whitted::{
-    WhittedRecords, bounds,
-    hierarchy::{Bounds, GROUP, level_count, levels, order},
+    WhittedRecords,
+    hierarchy::{GROUP, level_count, levels, order},
 };
 use zerkalo::tracer::{Kernel, Precision, Settings};
 
@@ -20,7 +20,7 @@ fn made(name: &str) -> Scene {
 
 /// World frame.
 fn bounds_of(scene: &Scene) -> Vec<Bounds> {
-    scene.primitives.iter().map(|primitive| bounds(&primitive.solid, SceneSpace::world(1e6))).collect()
+    scene.primitives.iter().map(|primitive| Bounds::of(&primitive.solid, SceneSpace::world(1e6))).collect()
 }
 
 fn ordered(bounds: &[Bounds]) -> Vec<Bounds> {
@@ -109,7 +109,7 @@ fn a_million_solids_are_drawn_whole() {
 fn bounds_hold_every_point_of_a_surface() {
     for kind in SolidKind::ALL {
         for primitive in made(&format!("cloud-{}-300", kind.name())).primitives {
-            let Bounds { low, high } = bounds(&primitive.solid, SceneSpace::world(1e6));
+            let Bounds { low, high } = Bounds::of(&primitive.solid, SceneSpace::world(1e6));
             for point in surface_points(&primitive.solid) {
                 let outside = (low - point).max(point - high).max_element();
                 assert!(outside < 1e-12, "{:?}: {point} is {outside:e} outside", primitive.solid);

@@ -22,6 +22,7 @@ mod devices;
 mod error_budget;
 mod goldens;
 mod hierarchy;
+mod light_model;
 mod record_layout;
 mod rendering;
 mod right_by_default;

@@ -61,12 +61,12 @@ fn kind(random: &mut Random) -> SolidKind {
 
 fn random_material(random: &mut Random) -> Material {
     let share = |random: &mut Random| random.uniform(0.0, 1.0);
-    Material {
-        color: random.vector(share),
-        ambient: 0.1,
-        diffuse: random.uniform(0.2, 0.9),
-        specular: if random.chance(0.5) { 0.0 } else { random.uniform(0.0, 0.6) },
-    }
+    Material::of_course(
+        random.vector(share),
+        0.1,
+        random.uniform(0.2, 0.9),
+        if random.chance(0.5) { 0.0 } else { random.uniform(0.0, 0.6) },
+    )
 }
 
 /// Something wide beneath a camera that looks along it at what stands there; one to five lights' distances up.
@@ -237,7 +237,7 @@ fn reported_scenes_are_right_by_default() {
 
 /// Something of a planet's size, a camera 2 above it, and a ball and a box of 1 on it.
 fn planet(ground: Solid, top: DVec3) -> Scene {
-    let matte = Material { color: DVec3::splat(0.8), ambient: 0.1, diffuse: 0.7, specular: 0.2 };
+    let matte = Material::of_course(DVec3::splat(0.8), 0.1, 0.7, 0.2);
     let ball = Solid::Sphere { center: top + DVec3::new(0.0, 1.0, 10.0), radius: 1.0 };
     let center = top + DVec3::new(2.5, 0.5, 9.0);
     let half_size = DVec3::splat(0.5);

@@ -66,7 +66,7 @@ fn a_pixel_is_the_mean_of_its_samples_bit_for_bit_and_the_first_is_its_centre() 
 
 /// A disk without shades: edges in all directions.
 fn disk(center: DVec3) -> Scene {
-    let material = Material { color: DVec3::ONE, ambient: 1.0, diffuse: 0.0, specular: 0.0 };
+    let material = Material::of_course(DVec3::ONE, 1.0, 0.0, 0.0);
     let disk = primitive(sphere(center, 1.0), material);
     let camera = Camera { position: DVec3::new(0.0, 0.0, -4.0), projection: Projection::Centered, ..Camera::default() };
     Scene { camera, primitives: vec![disk], background: DVec3::ZERO, ..Scene::default() }

@@ -159,6 +159,7 @@ fn mr_no_ray_escapes_from_a_closed_room_of_mirrors() {
                     ..Camera::default()
                 },
                 background: DVec3::ONE,
+                ambient_light: DVec3::ONE,
                 lights: vec![],
                 max_depth: 200,
                 primitives: vec![primitive(room.clone(), mirror()), primitive(sphere(DVec3::X, 0.3), mirror())],

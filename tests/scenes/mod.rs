@@ -11,7 +11,7 @@ pub fn picture(scene: &Scene, width: u32, height: u32) -> Image64 {
 }
 
 pub fn material(ambient: f64, diffuse: f64, specular: f64) -> Material {
-    Material { color: DVec3::new(0.3, 0.5, 0.7), ambient, diffuse, specular }
+    Material::of_course(DVec3::new(0.3, 0.5, 0.7), ambient, diffuse, specular)
 }
 
 pub fn mirror() -> Material {

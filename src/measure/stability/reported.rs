@@ -65,7 +65,7 @@ fn right_or_told(id: &str, scene: impl Fn() -> Scene + 'static) -> Case {
 }
 
 fn matter(specular: f64) -> Material {
-    Material { color: DVec3::splat(0.8), ambient: 0.1, diffuse: 0.7, specular }
+    Material::of_course(DVec3::splat(0.8), 0.1, 0.7, specular)
 }
 
 fn primitive(solid: Solid) -> Primitive {

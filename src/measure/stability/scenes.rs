@@ -6,7 +6,7 @@ use super::solids::direction;
 use crate::scene::{Camera, Light, Material, Primitive, Scene, Solid, SolidKind};
 
 fn material(ambient: f64, diffuse: f64, specular: f64) -> Material {
-    Material { color: DVec3::new(0.3, 0.5, 0.7), ambient, diffuse, specular }
+    Material::of_course(DVec3::new(0.3, 0.5, 0.7), ambient, diffuse, specular)
 }
 
 fn primitive(solid: Solid, material: Material) -> Primitive {
@@ -107,6 +107,7 @@ pub(super) fn rooms(max_depth: u32) -> Vec<Scene> {
     let room = |solid| Scene {
         camera: Camera { position: DVec3::new(0.1, 0.2, 0.3), vertical_fov_degrees: 120.0, ..Camera::default() },
         background: DVec3::ONE,
+        ambient_light: DVec3::ONE,
         // Dark: the course kernel needs one.
         lights: vec![Light { position: DVec3::new(0.0, 1000.0, 0.0), intensity: DVec3::ZERO, ..Light::default() }],
         max_depth,

@@ -169,8 +169,14 @@ pub fn of_f32(lengths: &Lengths, depth: u32, size: [u32; 2], shift_pixels: f64) 
         return Rounding::Mild;
     }
     let ratio = lengths.ratio();
+    let lets_light_through = scene.primitives.iter().any(|primitive| primitive.material.transmission > 0.0);
     let are_lengths_mild = shift_pixels <= MILD_SHIFT_PIXELS && ratio <= MILD_RATIO;
     let are_mirrors_mild = ratio * gain_of_mirrors(scene, depth) <= MILD_RATIO_IN_MIRRORS;
+    if lets_light_through {
+        // The paths that are tried know no refraction.
+        let is_mild = are_lengths_mild && !has_grazing_light(lengths);
+        return if is_mild { Rounding::Mild } else { Rounding::Unknown { ratio } };
+    }
     let doubt = match (are_lengths_mild && !has_grazing_light(lengths), are_mirrors_mild) {
         (true, true) => return Rounding::Mild,
         (true, false) => Doubt::Mirrors,
@@ -187,8 +193,8 @@ pub fn of_f32(lengths: &Lengths, depth: u32, size: [u32; 2], shift_pixels: f64) 
 
 /// About how many rays, at most, a pixel takes: where every hit mirrors, as many generations as there may be.
 fn rays_of_pixel(scene: &Scene, depth: u32) -> f64 {
-    let specular = scene.primitives.iter().map(|primitive| primitive.material.specular).fold(0.0, f64::max);
-    let generations = f64::from(depth).min(1.0 / (1.0 - specular).max(f64::EPSILON));
+    let reflection = scene.primitives.iter().map(|primitive| primitive.material.reflection()).fold(0.0, f64::max);
+    let generations = f64::from(depth).min(1.0 / (1.0 - reflection).max(f64::EPSILON));
     generations * (1 + scene.lights.len()) as f64
 }
 
@@ -206,7 +212,7 @@ fn has_grazing_light(lengths: &Lengths) -> bool {
 /// How many times an error of an angle may be magnified, and then seen, by curved mirrors.
 fn gain_of_mirrors(scene: &Scene, depth: u32) -> f64 {
     let is_curved = |primitive: &&Primitive| !matches!(primitive.solid, Solid::Box { .. });
-    let mirrors = scene.primitives.iter().filter(is_curved).map(|primitive| primitive.material.specular);
+    let mirrors = scene.primitives.iter().filter(is_curved).map(|primitive| primitive.material.reflection());
     (MIRROR_GAIN * mirrors.fold(0.0, f64::max)).max(1.0).powi(depth as i32 - 1)
 }
 

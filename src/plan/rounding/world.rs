@@ -22,6 +22,8 @@ struct F32Light {
     /// `None` where nothing of it is seen.
     sphere: Option<F32Solid>,
     intensity: Vec3,
+    /// Scale, slope and constant of `Light` in `glsl/records/scene.glsl`.
+    fading: Vec3,
 }
 
 /// What a path came to.
@@ -71,7 +73,7 @@ impl<'a> F32World<'a> {
             primitives.push(primitive as u32);
             let material = &self.scene.primitives[primitive].material;
             color = limited(color + weight * self.local_radiance(&hit, primitive, ray.direction));
-            weight *= material.specular as f32;
+            weight *= material.reflection() as f32;
             if weight == 0.0 {
                 break;
             }
@@ -111,7 +113,7 @@ impl<'a> F32World<'a> {
         let material = &self.scene.primitives[primitive].material;
         let (diffuse, specular) = (material.diffuse as f32, material.specular as f32);
         let color = material.color.as_vec3();
-        let mut sum = material.ambient as f32 * color;
+        let mut sum = limited(material.ambient as f32 * color * self.scene.ambient_light.as_vec3());
         for light in &self.lights {
             let to_light = light.position - hit.point;
             let distance = to_light.length();
@@ -124,8 +126,10 @@ impl<'a> F32World<'a> {
                 && is_above
                 && !self.hide(light.position, distance, direction, hit, primitive)
             {
-                let highlight = unit(mirrored(-direction, hit.normal)).dot(-ray_direction).max(0.0).powi(5);
-                sum = limited(sum + (diffuse * cosine * color + specular * highlight) * light.intensity);
+                let alignment = unit(mirrored(-direction, hit.normal)).dot(-ray_direction).max(0.0);
+                let highlight = alignment.powf(material.shininess_256() as f32 / 256.0);
+                let received = (diffuse * cosine * color + specular * highlight) * light.intensity;
+                sum = limited(sum + limited(received * light.fading(distance)));
             }
         }
         sum
@@ -160,7 +164,13 @@ impl F32Light {
             position,
             sphere: (radius > 0.0).then_some(F32Solid::Sphere { center: position, radius }),
             intensity: light.intensity.as_vec3(),
+            fading: light.fading(frame.scale).as_vec3(),
         }
+    }
+
+    /// What of the light is left at a distance.
+    fn fading(&self, distance: f32) -> f32 {
+        self.fading.x / (self.fading.y * distance + self.fading.z)
     }
 }
 

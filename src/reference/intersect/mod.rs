@@ -239,6 +239,24 @@ impl PreparedSolid {
         })
     }
 
+    /// How many of its surfaces a ray, whose direction leads from its origin to `target`, crosses before the target. As
+    /// in [`PreparedSolid::hides`], those on which the target lies are not.
+    pub fn surfaces_before(&self, target: DVec3, ray: &Ray, origin: Origin) -> u32 {
+        if !self.hides(target, ray, origin) {
+            return 0;
+        }
+        let line = RecentredLine::new(ray, self.anchor);
+        let is_from_inside = self.first_hit(ray, origin).is_some_and(|hit| hit.side == Side::Inside);
+        match self.interval(&line) {
+            Some(interval) if !is_from_inside => {
+                let beyond_exit = 1.0 - (line.t_closest + interval.far.s).rounded();
+                let leaves = beyond_exit * ray.direction.length() > self.position_error(target, SURFACE_ERROR);
+                1 + u32::from(leaves)
+            }
+            _ => 1,
+        }
+    }
+
     /// How far a place is from the plane of a face, on this side of it; `None` of a curved face. A place that lies in
     /// the plane to rounding is not on either side: 0.
     pub fn height_above(&self, face: Face, side: Side, place: DVec3) -> Option<f64> {

@@ -6,18 +6,20 @@
 //! | what | as |
 //! | --- | --- |
 //! | `zscene` CR LF | 8 bytes |
-//! | version, 1, or 2 where a light has a radius other than 0.01 | u32 |
+//! | version: 3 where anything is not as in the course work but a light's radius, else 2 where one is not 0.01, else 1 | u32 |
 //! | max_depth | u32 |
 //! | background | 3 numbers |
+//! | of version 3: ambient_light | 3 numbers |
 //! | camera: position, direction, up, vertical_fov_degrees | 10 numbers |
 //! | projection: 0 is centered, 1 is course | u8 |
 //! | count of lights | u64 |
-//! | each: position, intensity, of version 2 radius | 6 or 7 numbers |
+//! | each: position, intensity, from version 2 on radius, of version 3 distance_constant or 0 | 6, 7 or 8 numbers |
 //! | count of primitives | u64 |
 //! | each: kind (0 sphere, 1 box, 2 cylinder, 3 cone), and 128 where it has a name | u8 |
 //! | its name, if any, in UTF-8: bytes, and they | u64, bytes |
 //! | its geometry, in the order of the text forms' fields | 4, 9, 7 or 8 numbers |
 //! | its material: color, ambient, diffuse, specular | 6 numbers |
+//! | of version 3: reflection or −1, shininess, transmission, refractive_index | 4 numbers |
 //! | CRC-32 of all before | u32 |
 
 use glam::DVec3;
@@ -32,6 +34,8 @@ const MAGIC: [u8; 8] = *b"zscene\r\n";
 const VERSION: u32 = 1;
 /// Each light has its radius.
 const VERSION_OF_RADII: u32 = 2;
+/// All of the light model.
+const VERSION_OF_LIGHT_MODEL: u32 = 3;
 /// In a kind's byte.
 const HAS_NAME: u8 = 128;
 /// Bytes of the smallest light, and of the smallest primitive.
@@ -39,15 +43,17 @@ const LIGHT_BYTES: usize = 6 * 8;
 const SMALLEST_PRIMITIVE_BYTES: usize = 1 + (4 + 6) * 8;
 
 pub(super) fn encode(scene: &Scene) -> Vec<u8> {
-    let Scene { camera, background, max_depth, lights, primitives } = scene;
+    let Scene { camera, background, ambient_light, max_depth, lights, primitives } = scene;
     let room = 256 + lights.len() * LIGHT_BYTES + primitives.len() * SMALLEST_PRIMITIVE_BYTES;
-    let mut writer = Writer { bytes: Vec::with_capacity(room) };
+    let version = least_version(scene);
+    let mut writer = Writer { bytes: Vec::with_capacity(room), version };
     writer.raw(&MAGIC);
-    // Programs that know no radii read scenes that need none.
-    let has_radii = lights.iter().any(|light| light.radius != Light::COURSE_RADIUS);
-    writer.raw(&if has_radii { VERSION_OF_RADII } else { VERSION }.to_le_bytes());
+    writer.raw(&version.to_le_bytes());
     writer.raw(&max_depth.to_le_bytes());
     writer.vector(*background);
+    if version >= VERSION_OF_LIGHT_MODEL {
+        writer.vector(*ambient_light);
+    }
     [camera.position, camera.direction, camera.up].into_iter().for_each(|vector| writer.vector(vector));
     writer.number(camera.vertical_fov_degrees);
     writer.raw(&[match camera.projection {
@@ -58,8 +64,11 @@ pub(super) fn encode(scene: &Scene) -> Vec<u8> {
     for light in lights {
         writer.vector(light.position);
         writer.vector(light.intensity);
-        if has_radii {
+        if version >= VERSION_OF_RADII {
             writer.number(light.radius);
+        }
+        if version >= VERSION_OF_LIGHT_MODEL {
+            writer.number(light.distance_constant.unwrap_or(NO_CONSTANT));
         }
     }
     writer.count(primitives.len());
@@ -69,8 +78,42 @@ pub(super) fn encode(scene: &Scene) -> Vec<u8> {
     writer.bytes
 }
 
+/// The oldest that has room for the scene, so that programs which know no newer one read what needs none.
+fn least_version(scene: &Scene) -> u32 {
+    let usual = Material::default();
+    let is_of_course = |Primitive { material, .. }: &Primitive| {
+        let Material {
+            color: _,
+            ambient: _,
+            diffuse: _,
+            specular: _,
+            reflection,
+            shininess,
+            transmission,
+            refractive_index,
+        } = *material;
+        reflection.is_none()
+            && (shininess, transmission, refractive_index)
+                == (usual.shininess, usual.transmission, usual.refractive_index)
+    };
+    let has_constants = scene.lights.iter().any(|light| light.distance_constant.is_some());
+    if scene.ambient_light != DVec3::ONE || has_constants || !scene.primitives.iter().all(is_of_course) {
+        VERSION_OF_LIGHT_MODEL
+    } else if scene.lights.iter().any(|light| light.radius != Light::COURSE_RADIUS) {
+        VERSION_OF_RADII
+    } else {
+        VERSION
+    }
+}
+
+/// Of a light without attenuation; a constant is greater than 0.
+const NO_CONSTANT: f64 = 0.0;
+/// Of a material that reflects as its highlight weighs.
+const AS_SPECULAR: f64 = -1.0;
+
 struct Writer {
     bytes: Vec<u8>,
+    version: u32,
 }
 
 impl Writer {
@@ -120,22 +163,28 @@ impl Writer {
             }
         }
         self.vector(material.color);
-        [material.ambient, material.diffuse, material.specular].into_iter().for_each(|number| self.number(number));
+        let Material { color: _, ambient, diffuse, specular, reflection, shininess, transmission, refractive_index } =
+            *material;
+        [ambient, diffuse, specular].into_iter().for_each(|number| self.number(number));
+        if self.version >= VERSION_OF_LIGHT_MODEL {
+            let reflection = reflection.unwrap_or(AS_SPECULAR);
+            [reflection, shininess, transmission, refractive_index].into_iter().for_each(|number| self.number(number));
+        }
     }
 }
 
 /// What the values mean is not looked at.
 pub(super) fn decode(bytes: &[u8]) -> Result<Scene, Fault> {
-    let mut reader = Reader { bytes, offset: 0, has_radii: false, place: Place::Scene };
+    let mut reader = Reader { bytes, offset: 0, version: VERSION, place: Place::Scene };
     if reader.bytes::<8>()? != MAGIC {
         return Err(Fault { offset: 0, what: "not a zscene file: its first bytes are others".to_owned() });
     }
     let version = reader.u32()?;
-    if ![VERSION, VERSION_OF_RADII].contains(&version) {
-        let known = format!("{VERSION} and {VERSION_OF_RADII} are");
+    if !(VERSION..=VERSION_OF_LIGHT_MODEL).contains(&version) {
+        let known = format!("{VERSION} to {VERSION_OF_LIGHT_MODEL} are");
         return Err(reader.fault(4, format!("version {version} of zscene files is not known here: {known}")));
     }
-    reader.has_radii = version == VERSION_OF_RADII;
+    reader.version = version;
     let scene = reader.scene()?;
     let sum = crc32fast::hash(&bytes[..reader.offset]);
     let at = reader.offset;
@@ -152,7 +201,7 @@ struct Reader<'b> {
     bytes: &'b [u8],
     /// Of what is read next.
     offset: usize,
-    has_radii: bool,
+    version: u32,
     /// That belongs to this.
     place: Place<'b>,
 }
@@ -204,12 +253,14 @@ impl<'b> Reader<'b> {
     fn scene(&mut self) -> Result<Scene, Fault> {
         let max_depth = self.u32()?;
         let [background] = self.vectors()?;
+        let has_light_model = self.version >= VERSION_OF_LIGHT_MODEL;
+        let [ambient_light] = if has_light_model { self.vectors()? } else { [DVec3::ONE] };
         self.place = Place::Camera;
         let camera = self.camera()?;
         self.place = Place::Scene;
         let lights = self.list(check_light_count, LIGHT_BYTES, Self::light)?;
         let primitives = self.list(check_primitive_count, SMALLEST_PRIMITIVE_BYTES, Self::primitive)?;
-        Ok(Scene { camera, background, max_depth, lights, primitives })
+        Ok(Scene { camera, background, ambient_light, max_depth, lights, primitives })
     }
 
     fn camera(&mut self) -> Result<Camera, Fault> {
@@ -246,8 +297,10 @@ impl<'b> Reader<'b> {
     fn light(&mut self, index: usize) -> Result<Light, Fault> {
         self.place = Place::Light(index);
         let [position, intensity] = self.vectors()?;
-        let [radius] = if self.has_radii { self.numbers()? } else { [Light::COURSE_RADIUS] };
-        Ok(Light { position, intensity, radius })
+        let [radius] = if self.version >= VERSION_OF_RADII { self.numbers()? } else { [Light::COURSE_RADIUS] };
+        let [constant] = if self.version >= VERSION_OF_LIGHT_MODEL { self.numbers()? } else { [NO_CONSTANT] };
+        let distance_constant = (constant != NO_CONSTANT).then_some(constant);
+        Ok(Light { position, intensity, radius, distance_constant })
     }
 
     fn primitive(&mut self, index: usize) -> Result<Primitive, Fault> {
@@ -261,10 +314,20 @@ impl<'b> Reader<'b> {
         let name = if first & HAS_NAME != 0 { Some(self.name()?) } else { None };
         self.place = Place::Primitive { index, kind: Some(kind), name };
         let solid = self.solid(kind)?;
+        let material = self.material()?;
+        Ok(Primitive { name: name.map(str::to_owned), solid, material })
+    }
+
+    fn material(&mut self) -> Result<Material, Fault> {
         let [color] = self.vectors()?;
         let [ambient, diffuse, specular] = self.numbers()?;
-        let material = Material { color, ambient, diffuse, specular };
-        Ok(Primitive { name: name.map(str::to_owned), solid, material })
+        let usual = Material { color, ambient, diffuse, specular, ..Material::default() };
+        if self.version < VERSION_OF_LIGHT_MODEL {
+            return Ok(usual);
+        }
+        let [reflection, shininess, transmission, refractive_index] = self.numbers()?;
+        let reflection = (reflection != AS_SPECULAR).then_some(reflection);
+        Ok(Material { reflection, shininess, transmission, refractive_index, ..usual })
     }
 
     fn name(&mut self) -> Result<&'b str, Fault> {

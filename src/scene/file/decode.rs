@@ -9,12 +9,13 @@ use crate::scene::validate::{DEPTH, FINITE, Place, Violation, check_light_count,
 use crate::scene::{Camera, Light, Material, Primitive, Projection, Scene, Solid, SolidKind};
 
 pub(super) fn scene(root: Node<'_>) -> Result<Scene, Fault> {
-    const FIELDS: &[&str] = &["camera", "background", "max_depth", "lights", "primitives"];
+    const FIELDS: &[&str] = &["camera", "background", "ambient_light", "max_depth", "lights", "primitives"];
     let fields = Fields::of(root, Place::Scene, "", FIELDS)?;
     let default = Scene::default();
     Ok(Scene {
         camera: fields.get("camera").map_or(Ok(default.camera), camera)?,
         background: fields.read("background", vector, default.background)?,
+        ambient_light: fields.read("ambient_light", vector, default.ambient_light)?,
         max_depth: fields.read("max_depth", depth, default.max_depth)?,
         lights: fields.list("lights", check_light_count, light)?.unwrap_or(default.lights),
         primitives: fields.list("primitives", check_primitive_count, primitive)?.unwrap_or_default(),
@@ -35,12 +36,14 @@ fn camera(node: Node<'_>) -> Result<Camera, Fault> {
 }
 
 fn light(index: usize, node: Node<'_>) -> Result<Light, Fault> {
-    let fields = Fields::of(node, Place::Light(index), "", &["position", "intensity", "radius"])?;
+    const FIELDS: &[&str] = &["position", "intensity", "radius", "distance_constant"];
+    let fields = Fields::of(node, Place::Light(index), "", FIELDS)?;
     let default = Light::default();
     Ok(Light {
         position: fields.read("position", vector, default.position)?,
         intensity: fields.read("intensity", vector, default.intensity)?,
         radius: fields.read("radius", number, default.radius)?,
+        distance_constant: fields.read("distance_constant", some_number, None)?,
     })
 }
 
@@ -97,13 +100,19 @@ fn solid(fields: &Fields<'_>, kind: SolidKind) -> Result<Solid, Fault> {
 }
 
 fn material(node: Node<'_>, place: Place<'_>) -> Result<Material, Fault> {
-    let fields = Fields::of(node, place, "material.", &["color", "ambient", "diffuse", "specular"])?;
+    const FIELDS: &[&str] =
+        &["color", "ambient", "diffuse", "specular", "reflection", "shininess", "transmission", "refractive_index"];
+    let fields = Fields::of(node, place, "material.", FIELDS)?;
     let default = Material::default();
     Ok(Material {
         color: fields.read("color", vector, default.color)?,
         ambient: fields.read("ambient", number, default.ambient)?,
         diffuse: fields.read("diffuse", number, default.diffuse)?,
         specular: fields.read("specular", number, default.specular)?,
+        reflection: fields.read("reflection", some_number, None)?,
+        shininess: fields.read("shininess", number, default.shininess)?,
+        transmission: fields.read("transmission", number, default.transmission)?,
+        refractive_index: fields.read("refractive_index", number, default.refractive_index)?,
     })
 }
 
@@ -184,6 +193,10 @@ fn number(node: Node<'_>) -> Result<f64, &'static str> {
         Some(_) => Err(FINITE),
         None => Err("must be a number"),
     }
+}
+
+fn some_number(node: Node<'_>) -> Result<Option<f64>, &'static str> {
+    number(node).map(Some)
 }
 
 fn vector(node: Node<'_>) -> Result<DVec3, &'static str> {

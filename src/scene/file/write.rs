@@ -1,5 +1,8 @@
 //! From a scene to text. TOML is for people: fields that have their default value are left out, geometry never is.
-//! JSON is for programs: every field stands there.
+//! JSON is for programs: every field of the course work's model stands there, and of the others those that are not as
+//! they are without being named, so that programs which do not know them read what needs none.
+
+use glam::DVec3;
 
 use super::Format;
 use crate::scene::text::{number, quoted, vector};
@@ -43,7 +46,9 @@ impl Scene {
 type Field = (&'static str, String);
 
 fn scene_fields(scene: &Scene) -> Vec<Field> {
-    vec![("max_depth", scene.max_depth.to_string()), ("background", vector(scene.background))]
+    let mut fields = vec![("max_depth", scene.max_depth.to_string()), ("background", vector(scene.background))];
+    fields.extend((scene.ambient_light != DVec3::ONE).then(|| ("ambient_light", vector(scene.ambient_light))));
+    fields
 }
 
 fn camera_fields(camera: &Camera) -> Vec<Field> {
@@ -57,12 +62,25 @@ fn camera_fields(camera: &Camera) -> Vec<Field> {
 }
 
 fn material_fields(material: &Material) -> Vec<Field> {
-    vec![
-        ("color", vector(material.color)),
-        ("ambient", number(material.ambient)),
-        ("diffuse", number(material.diffuse)),
-        ("specular", number(material.specular)),
-    ]
+    let Material { color, ambient, diffuse, specular, reflection, shininess, transmission, refractive_index } =
+        *material;
+    let mut fields = vec![
+        ("color", vector(color)),
+        ("ambient", number(ambient)),
+        ("diffuse", number(diffuse)),
+        ("specular", number(specular)),
+    ];
+    fields.extend(reflection.map(|reflection| ("reflection", number(reflection))));
+    let default = Material::default();
+    let others = [
+        ("shininess", shininess, default.shininess),
+        ("transmission", transmission, default.transmission),
+        ("refractive_index", refractive_index, default.refractive_index),
+    ];
+    fields.extend(
+        others.into_iter().filter(|(_, value, usual)| value != usual).map(|(key, value, _)| (key, number(value))),
+    );
+    fields
 }
 
 fn solid_fields(solid: &Solid) -> Vec<Field> {
@@ -88,7 +106,11 @@ fn solid_fields(solid: &Solid) -> Vec<Field> {
 impl Format {
     fn light(self, light: &Light) -> String {
         let position = ("position", vector(light.position));
-        let others = |light: &Light| vec![("intensity", vector(light.intensity)), ("radius", number(light.radius))];
+        let others = |light: &Light| {
+            let mut fields = vec![("intensity", vector(light.intensity)), ("radius", number(light.radius))];
+            fields.extend(light.distance_constant.map(|constant| ("distance_constant", number(constant))));
+            fields
+        };
         let mut fields = vec![position];
         fields.extend(self.fields(others(light), &others(&Light::default())));
         self.table(&fields)

@@ -110,8 +110,7 @@ fn random_primitive(mut random: Random, kind: Option<SolidKind>, half_side: f64)
             Solid::Cone { apex: center - axis * (height / 2.0), axis, height, half_angle_degrees }
         }
     };
-    let material =
-        Material { color: random.vector(0.2, 1.0), ambient: 0.1, diffuse: 0.6, specular: random.number(0.0, 0.5) };
+    let material = Material::of_course(random.vector(0.2, 1.0), 0.1, 0.6, random.number(0.0, 0.5));
     Primitive { name: None, solid, material }
 }
 

@@ -62,7 +62,7 @@ pub(super) fn light() -> Scene {
 
 /// Figure 3.7: five generations, as in the course work.
 pub(super) fn corridor() -> Scene {
-    let material = |color, diffuse| Material { color, ambient: 0.1, diffuse, specular: 0.5 };
+    let material = |color, diffuse| Material::of_course(color, 0.1, diffuse, 0.5);
     let primitives = vec![
         Primitive {
             name: None,
@@ -90,7 +90,7 @@ pub(super) fn corridor() -> Scene {
 
 /// Figure 3.8: a box and a cone mirrored in the sphere between them.
 pub(super) fn several() -> Scene {
-    let material = |color, diffuse, specular| Material { color, ambient: 0.1, diffuse, specular };
+    let material = |color, diffuse, specular| Material::of_course(color, 0.1, diffuse, specular);
     let primitives = vec![
         Primitive {
             name: Some("mirror".into()),

@@ -17,6 +17,7 @@ pub(super) fn scene() -> Scene {
             projection: Projection::Centered,
         },
         background: DVec3::new(0.06, 0.09, 0.14),
+        ambient_light: DVec3::ONE,
         max_depth: 8,
         lights: vec![Light {
             position: DVec3::new(7.0, 6.5, -5.0),
@@ -31,14 +32,14 @@ pub(super) fn scene() -> Scene {
                     half_size: DVec3::new(16.0, 0.1, 10.0),
                     rotation_degrees: DVec3::ZERO,
                 },
-                Material { color: DVec3::new(0.5, 0.52, 0.56), ambient: 0.1, diffuse: 0.6, specular: 0.25 },
+                Material::of_course(DVec3::new(0.5, 0.52, 0.56), 0.1, 0.6, 0.25),
             ),
             named("left mirror", mirror_wall(4.9, -62.0), MIRROR),
             named("right mirror", mirror_wall(-4.9, 62.0), MIRROR),
             named(
                 "mirror ball",
                 Solid::Sphere { center: DVec3::new(0.0, 1.35, 2.4), radius: 1.35 },
-                Material { color: DVec3::new(0.9, 0.9, 0.95), ambient: 0.03, diffuse: 0.15, specular: 0.6 },
+                Material::of_course(DVec3::new(0.9, 0.9, 0.95), 0.03, 0.15, 0.6),
             ),
             named(
                 "blue ball",
@@ -73,7 +74,7 @@ pub(super) fn scene() -> Scene {
     }
 }
 
-const MIRROR: Material = Material { color: DVec3::new(0.8, 0.85, 0.9), ambient: 0.03, diffuse: 0.06, specular: 0.65 };
+const MIRROR: Material = Material::of_course(DVec3::new(0.8, 0.85, 0.9), 0.03, 0.06, 0.65);
 
 fn mirror_wall(x: f64, turn_degrees: f64) -> Solid {
     Solid::Box {
@@ -84,7 +85,7 @@ fn mirror_wall(x: f64, turn_degrees: f64) -> Solid {
 }
 
 fn painted(color: DVec3) -> Material {
-    Material { color, ambient: 0.12, diffuse: 0.8, specular: 0.2 }
+    Material::of_course(color, 0.12, 0.8, 0.2)
 }
 
 fn named(name: &str, solid: Solid, material: Material) -> Primitive {

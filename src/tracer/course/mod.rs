@@ -13,7 +13,8 @@ use crate::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, Builds, ComputePipeline, Device, Dispatch, GpuError,
     PipelineDescription, Recorder, Resource, Shader, Use, shaders,
 };
-use crate::scene::{COURSE_PRIMITIVE_LIMIT, DEPTH_LIMIT, Light, Scene};
+use crate::plan::{LightFeatures, Media};
+use crate::scene::{COURSE_PRIMITIVE_LIMIT, DEPTH_LIMIT, Light, Primitive, Scene};
 
 pub use records::{
     BoxRecord, ConeRecord, CoursePushConstants, CylinderRecord, LightRecord, MaterialRecord, PrimitiveRecords,
@@ -55,6 +56,9 @@ impl CourseScene {
                 light.radius
             )));
         }
+        if let Some(what) = beyond_the_course(scene, light) {
+            return Err(TracerError::Refused(format!("the course kernel knows no {what}, and the scene has it")));
+        }
         if scene.primitives.len() > MAX_PRIMITIVES {
             return Err(TracerError::Refused(format!(
                 "the course kernel takes at most {MAX_PRIMITIVES} primitives, and the scene has {}",
@@ -65,6 +69,20 @@ impl CourseScene {
         let generations = settings.generations(scene);
         let frame = CoursePushConstants::new(scene, light, primitives.counts(), generations, width, height);
         Ok(Self { frame, primitives, workgroup })
+    }
+}
+
+/// What a scene asks for that is not in the course work's model.
+fn beyond_the_course(scene: &Scene, light: &Light) -> Option<&'static str> {
+    let LightFeatures { attenuation: _, ambient_light, shininess, media } = LightFeatures::of(scene);
+    let is_own = |primitive: &Primitive| primitive.material.reflection() != primitive.material.specular;
+    match () {
+        () if light.distance_constant.is_some() => Some("attenuation (a light's distance_constant)"),
+        () if ambient_light => Some("ambient_light other than 1"),
+        () if shininess => Some("shininess other than 5"),
+        () if media != Media::None => Some("transmission"),
+        () if scene.primitives.iter().any(is_own) => Some("reflection other than specular"),
+        () => None,
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::records::WhittedRecords;
 use crate::gpu::{Device, DeviceKind, FloatWidth, GpuError, arithmetic};
-use crate::plan::{Approximations, CPU_MAX_ITERATIONS, Features, Precision};
+use crate::plan::{Approximations, CPU_MAX_ITERATIONS, Features, LightFeatures, Precision, most_pending};
 
 impl Features {
     /// Of an exact picture, or of what `approximations` leave of it, as a scene's records have it.
@@ -12,6 +12,7 @@ impl Features {
         let lights = |matter: bool, count: u32| if matter { count.min(2) } else { 0 };
         let lights_that_shine = lights(approximations.lights, records.light_count);
         let has_lights = lights_that_shine > 0;
+        let media = records.light.media.seen_by(max_depth);
         Self {
             kinds: records.solids.counts.map(|count| count > 0),
             levels: records.solids.levels,
@@ -24,6 +25,8 @@ impl Features {
             reflections: approximations.reflections && max_depth > 1,
             samples: false,
             pixels: 1,
+            light: LightFeatures { media, ..records.light },
+            pending: most_pending(media, max_depth),
         }
     }
 
@@ -36,7 +39,7 @@ impl Features {
         device: &Arc<Device>,
         precision: Precision,
         [width, height]: [u32; 2],
-    ) -> Result<[u32; 21], GpuError> {
+    ) -> Result<[u32; 26], GpuError> {
         let float_width = match precision {
             Precision::F32 => FloatWidth::F32,
             Precision::F64 => FloatWidth::F64,
@@ -44,7 +47,8 @@ impl Features {
         let has_fused_fma = u32::from(arithmetic(device, float_width)?.fused_fma);
         let [spheres, boxes, cylinders, cones] = self.kinds.map(u32::from);
         let [sphere_levels, box_levels, cylinder_levels, cone_levels] = self.levels;
-        let &Self { highlights, light_spheres, lights, shadows, reflections, samples, pixels, .. } = self;
+        let &Self { highlights, light_spheres, lights, shadows, reflections, samples, pixels, light, pending, .. } =
+            self;
         Ok([
             has_fused_fma,
             spheres,
@@ -67,6 +71,11 @@ impl Features {
             u32::from(samples),
             pixels,
             u32::from(self.is_close_up),
+            u32::from(light.shininess),
+            u32::from(light.attenuation),
+            u32::from(light.ambient_light),
+            light.media as u32,
+            pending,
         ])
     }
 }

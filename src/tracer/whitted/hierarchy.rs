@@ -7,26 +7,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::plan::Structure;
-
-/// A box around a solid or several.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bounds {
-    pub low: DVec3,
-    pub high: DVec3,
-}
-
-impl Bounds {
-    /// Around nothing.
-    pub const EMPTY: Self = Self { low: DVec3::INFINITY, high: DVec3::NEG_INFINITY };
-
-    pub fn union(self, other: Self) -> Self {
-        Self { low: self.low.min(other.low), high: self.high.max(other.high) }
-    }
-
-    fn middle(&self) -> DVec3 {
-        self.low.midpoint(self.high)
-    }
-}
+use crate::scene::Bounds;
 
 /// Boxes in a group, and solids in a box of level 1.
 pub const GROUP: usize = Structure::GROUP;

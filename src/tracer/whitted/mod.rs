@@ -9,7 +9,6 @@ mod renderer;
 mod rows;
 mod scene;
 
-pub use proxies::bounds;
 pub use records::{SolidRecords, WhittedPushConstants, WhittedRecords};
 pub(super) use renderer::WhittedRenderer;
 pub use scene::{check_precision, scene_bindings, upload_scene};

@@ -4,10 +4,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::hierarchy::{Bounds, GROUP, Level};
+use super::hierarchy::{GROUP, Level};
 use super::rows::{row, unit};
 use crate::plan::is_rotated;
-use crate::scene::{SceneSpace, Solid, SolidKind, world_from_box};
+use crate::scene::{Bounds, SceneSpace, Solid, SolidKind};
 
 /// A row of the texel buffer.
 type Row = [f32; 4];
@@ -86,32 +86,4 @@ pub fn level_rows(level: &Level, height: usize, frame: SceneSpace) -> Vec<Row> {
     let missing = level.boxes.len().next_multiple_of(GROUP) - level.boxes.len();
     rows.extend(std::iter::repeat_n(NO_BOX, missing).flatten());
     rows
-}
-
-/// A box around a solid, scene space.
-pub fn bounds(solid: &Solid, frame: SceneSpace) -> Bounds {
-    let around = |center: DVec3, reach: DVec3| Bounds { low: center - reach, high: center + reach };
-    // Of a disk across an axis, along each coordinate.
-    let disk = |axis: DVec3, radius: f64| (DVec3::ONE - axis * axis).max(DVec3::ZERO).map(f64::sqrt) * radius;
-    let scale = frame.scale;
-    match *solid {
-        Solid::Sphere { center, radius } => around(frame.point(center), DVec3::splat(radius * scale)),
-        Solid::Box { center, half_size, rotation_degrees } => {
-            let axes = world_from_box(rotation_degrees);
-            let half_size = half_size * scale;
-            let reach =
-                axes.x_axis.abs() * half_size.x + axes.y_axis.abs() * half_size.y + axes.z_axis.abs() * half_size.z;
-            around(frame.point(center), reach)
-        }
-        Solid::Cylinder { ends: [a, b], radius } => {
-            let (a, b) = (frame.point(a), frame.point(b));
-            let reach = disk(unit((b * 0.5 - a * 0.5, DVec3::ZERO)).0, radius * scale);
-            around(a, reach).union(around(b, reach))
-        }
-        Solid::Cone { apex, axis, height, half_angle_degrees } => {
-            let (apex, height) = (frame.point(apex), height * scale);
-            let reach = disk(axis, height * half_angle_degrees.to_radians().tan());
-            around(apex, DVec3::ZERO).union(around(apex + axis * height, reach))
-        }
-    }
 }

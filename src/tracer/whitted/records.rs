@@ -10,13 +10,13 @@ use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::hierarchy::{self, Bounds, GROUP, Level};
-use super::proxies::{bounds, level_rows, nothing, proxy};
+use super::hierarchy::{self, GROUP, Level};
+use super::proxies::{level_rows, nothing, proxy};
 use super::rows::{row, unit};
-use crate::plan::{LIGHT_ROWS, MATERIAL_ROWS, Precision, VIEW_ROWS, is_rotated, solid_row_count};
+use crate::plan::{LightFeatures, Precision, VIEW_ROWS, is_rotated, may_be_in_a_solid, solid_row_count};
 use crate::scene::{
-    BoundingSphere, BoxNearby, Camera, CylinderNearby, Light, Primitive, Projection, Scene, SceneSpace, Solid,
-    SolidKind, SphereNearby, two_sum, world_from_box,
+    BoundingSphere, Bounds, BoxNearby, Camera, CylinderNearby, Light, Material, Primitive, Projection, Scene,
+    SceneSpace, Solid, SolidKind, SphereNearby, two_sum, world_from_box,
 };
 use crate::settings::sampling::sample_place;
 
@@ -29,14 +29,16 @@ pub struct WhittedRecords {
     pub light_count: u32,
     /// Of all lights.
     pub light_sphere_count: u32,
+    /// What the scene asks for; which rows there are goes by that.
+    pub light: LightFeatures,
     /// Shared by pictures whose primitives and frame are the same.
     pub solids: Arc<SolidRecords>,
 }
 
 impl PartialEq for WhittedRecords {
     fn eq(&self, other: &Self) -> bool {
-        let Self { view_and_lights, light_count, light_sphere_count: _, solids } = self;
-        (view_and_lights, *light_count) == (&other.view_and_lights, other.light_count)
+        let Self { view_and_lights, light_count, light_sphere_count: _, light, solids } = self;
+        (view_and_lights, *light_count, light) == (&other.view_and_lights, other.light_count, &other.light)
             && (Arc::ptr_eq(solids, &other.solids) || *solids == other.solids)
     }
 }
@@ -44,7 +46,8 @@ impl PartialEq for WhittedRecords {
 impl WhittedRecords {
     /// For a picture of `width`×`height` pixels; `precision` is that of the kernel.
     pub fn of(scene: &Scene, frame: SceneSpace, precision: Precision, size: [u32; 2]) -> Self {
-        Self::with(scene, Arc::new(SolidRecords::of(&scene.primitives, frame, precision, None)), precision, size)
+        let solids = SolidRecords::of(&scene.primitives, LightFeatures::of(scene), frame, precision, None);
+        Self::with(scene, Arc::new(solids), precision, size)
     }
 
     /// With records of the scene's primitives that are there already.
@@ -56,9 +59,11 @@ impl WhittedRecords {
     ) -> Self {
         let mut view_and_lights = view(scene, solids.frame, precision, width, height).to_vec();
         let (shining, dark): (Vec<_>, Vec<_>) = scene.lights.iter().partition(|light| light.intensity != DVec3::ZERO);
-        view_and_lights.extend(shining.iter().chain(&dark).flat_map(|light| light_rows(light, solids.frame)));
+        let features = LightFeatures::of(scene);
+        let rows = |light: &&Light| light_rows(light, solids.frame).into_iter().take(features.light_rows());
+        view_and_lights.extend(shining.iter().chain(&dark).flat_map(rows));
         let light_sphere_count = scene.lights.len() as u32;
-        Self { view_and_lights, light_count: shining.len() as u32, light_sphere_count, solids }
+        Self { view_and_lights, light_count: shining.len() as u32, light_sphere_count, light: features, solids }
     }
 
     /// The buffers of the kernel's own numbers, in the order of their bindings, with their names; the proxies come
@@ -86,6 +91,8 @@ pub struct SolidRecords {
     pub rows: [Vec<[f64; 4]>; 4],
     /// By slot.
     pub materials: Vec<[f64; 4]>,
+    /// Of each.
+    pub material_rows: usize,
     /// The slot of each primitive of the scene, or [`NO_SLOT`].
     pub slots: Vec<u32>,
     pub counts: [u32; 4],
@@ -118,12 +125,14 @@ impl SolidRecords {
     /// the records that they had, in their places.
     pub(super) fn of(
         primitives: &[Primitive],
+        light: LightFeatures,
         frame: SceneSpace,
         precision: Precision,
         last: Option<&SolidRecords>,
     ) -> Self {
         let slots = vec![NO_SLOT; primitives.len()];
-        let mut records = Self { frame, are_boxes_axis_aligned: true, slots, ..Self::default() };
+        let material_rows = light.material_rows();
+        let mut records = Self { frame, material_rows, are_boxes_axis_aligned: true, slots, ..Self::default() };
         for kind in SolidKind::ALL {
             records.add(kind, primitives, precision, last.map(|last| &last.orders[kind as usize]));
         }
@@ -138,11 +147,11 @@ impl SolidRecords {
             primitive.solid.kind() == kind && reach >= precision.smallest_length()
         };
         let primitives: Vec<_> = (0_u32..).zip(primitives).filter(is_counted).collect();
-        let bounds: Vec<_> = primitives.par_iter().map(|(_, primitive)| bounds(&primitive.solid, frame)).collect();
+        let bounds: Vec<_> = primitives.par_iter().map(|(_, primitive)| Bounds::of(&primitive.solid, frame)).collect();
         let (order, bounds, levels) = ordered(bounds, last);
         let ordered = || order.places.par_iter().map(|&place| primitives[place as usize]);
 
-        let first_slot = (self.materials.len() / MATERIAL_ROWS) as u32;
+        let first_slot = (self.materials.len() / self.material_rows) as u32;
         for (slot, (primitive, _)) in (first_slot..).zip(order.places.iter().map(|&place| primitives[place as usize])) {
             self.slots[primitive as usize] = slot;
         }
@@ -160,13 +169,13 @@ impl SolidRecords {
         self.are_boxes_axis_aligned &= !ordered().any(|(_, primitive)| is_rotated(&primitive.solid));
         let rows = &mut self.rows[kind as usize];
         rows.par_extend(ordered().flat_map_iter(|(_, primitive)| solid_rows(&primitive.solid, frame, precision)));
-        self.materials.par_extend(ordered().flat_map_iter(|(index, Primitive { material, .. })| {
-            let second = [material.diffuse, material.specular, f64::from(index), 0.0];
-            [row(material.color, material.ambient), second]
+        let material_rows = self.material_rows;
+        self.materials.par_extend(ordered().flat_map_iter(|(index, Primitive { material, solid, .. })| {
+            material_rows_of(material, index, solid).into_iter().take(material_rows)
         }));
         // Slots of nothing make the group whole.
         rows.extend(vec![[0.0; 4]; missing * solid_row_count(kind, frame.is_close_up)]);
-        self.materials.extend(vec![[0.0; 4]; missing * MATERIAL_ROWS]);
+        self.materials.extend(vec![[0.0; 4]; missing * self.material_rows]);
         self.orders[kind as usize] = order;
     }
 }
@@ -269,10 +278,21 @@ fn solid_rows(solid: &Solid, frame: SceneSpace, precision: Precision) -> Vec<[f6
     }
 }
 
-/// `Light`
-fn light_rows(light: &Light, frame: SceneSpace) -> [[f64; 4]; LIGHT_ROWS] {
+/// `Material`, of which the last row is there only where some scene's material needs it.
+fn material_rows_of(material: &Material, primitive: u32, solid: &Solid) -> [[f64; 4]; 3] {
+    let is_plate = matches!(solid, Solid::Box { half_size, .. } if half_size.min_element() == 0.0);
+    let refractive_index = if is_plate { 0.0 } else { material.refractive_index };
+    [
+        row(material.color, material.ambient),
+        [material.diffuse, material.specular, f64::from(primitive), material.reflection()],
+        [f64::from(material.shininess_256()), material.transmission, refractive_index, 0.0],
+    ]
+}
+
+/// `Light`, of which the last row is there only where some light fades with distance.
+fn light_rows(light: &Light, frame: SceneSpace) -> [[f64; 4]; 3] {
     let (position, radius) = frame.light(light);
-    [row(position, radius), row(light.intensity, 0.0)]
+    [row(position, radius), row(light.intensity, 0.0), row(light.fading(frame.scale), 0.0)]
 }
 
 /// `View`
@@ -293,8 +313,9 @@ fn view(scene: &Scene, frame: SceneSpace, precision: Precision, width: u32, heig
         row(ahead.cross(left), half_height),
         row(ahead, window_low),
         row(scene.background, 0.0),
-        row(position, 0.0),
+        row(position, f64::from(u8::from(may_be_in_a_solid(scene)))),
         row(position_error, 0.0),
+        row(scene.ambient_light, 0.0),
     ]
 }
 

@@ -12,7 +12,7 @@ use super::pipeline::{WhittedPipeline, shader_of};
 use super::records::{SolidRecords, WhittedRecords};
 use super::scene::{WhittedScene, check_precision};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Texel, Use};
-use crate::plan::{MOST_PIXELS, Precision, TraversalCost, WORKGROUP, scene_space_within};
+use crate::plan::{LightFeatures, MOST_PIXELS, Precision, TraversalCost, WORKGROUP, scene_space_within};
 use crate::scene::{Extent, Primitive, Scene};
 
 /// The kernel with the scene that it took up last.
@@ -142,7 +142,10 @@ impl Algorithm for WhittedRenderer {
         let last = self.on_device.as_ref().map(|last| &last.records.solids).filter(|solids| solids.frame == frame);
         let solids = match last {
             Some(solids) if same.is_some() => solids.clone(),
-            _ => Arc::new(SolidRecords::of(&scene.primitives, frame, precision, last.map(Arc::as_ref))),
+            _ => {
+                let light = LightFeatures::of(scene);
+                Arc::new(SolidRecords::of(&scene.primitives, light, frame, precision, last.map(Arc::as_ref)))
+            }
         };
         let records = WhittedRecords::with(scene, solids, precision, [settings.width, settings.height]);
         let pixels = self.pixels(scene, settings, &primitives.cost);

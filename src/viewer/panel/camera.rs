@@ -25,6 +25,9 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>
         ui.label(groups.background);
         let background = vector(ui, groups.background, RGB, scene.background, &Scale::INTENSITY);
         actions.extend(background.map(Action::SetBackground));
+        ui.label(groups.ambient_light);
+        let ambient_light = vector(ui, groups.ambient_light, RGB, scene.ambient_light, &Scale::INTENSITY);
+        actions.extend(ambient_light.map(Action::SetAmbientLight));
 
         let depth = ui.horizontal(|ui| number(ui, groups.camera, groups.max_depth, scene.max_depth.into(), &DEPTH));
         depth.response.on_hover_text(groups.max_depth_hint);

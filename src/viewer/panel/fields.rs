@@ -32,6 +32,10 @@ impl Scale {
     pub const AXIS: Self = Self::new(-1.0..=1.0, 20.0);
     /// Degrees of a cone's half angle, in (0, 90).
     pub const HALF_ANGLE: Self = Self { typed: 0.001..=89.999, dragged: 0.5..=89.5, steps_per_unit: 2.0 };
+    /// Of a highlight's exponent.
+    pub const SHININESS: Self = Self::new(1.0..=1024.0, 1.0);
+    /// Of a refractive index: common ones are dragged.
+    pub const REFRACTIVE_INDEX: Self = Self { typed: 0.01..=100.0, dragged: 1.0..=3.0, steps_per_unit: 20.0 };
     /// Degrees of a field of view, in (0, 180).
     pub const FIELD_OF_VIEW: Self = Self { typed: 0.001..=179.999, dragged: 1.0..=179.0, steps_per_unit: 2.0 };
     /// World units in a second.

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::fields::{RGB, Scale, XYZ, group, number_row, vector};
+use super::fields::{RGB, Scale, XYZ, check, group, number_row, vector};
 use crate::scene::{LIGHT_LIMIT, Light, Scene};
 use crate::viewer::action::Action;
 use crate::viewer::text::Words;
@@ -28,12 +28,20 @@ fn show_light(ui: &mut Ui, words: &Words, index: usize, light: &Light, actions: 
     let position = vector(ui, &name, XYZ, light.position, &Scale::POSITION);
     let intensity = vector(ui, &name, RGB, light.intensity, &Scale::INTENSITY);
     let radius = number_row(ui, &name, groups.radius, light.radius, &Scale::HALF_SIZE);
-    if position.is_some() || intensity.is_some() || radius.is_some() {
-        let edited = Light {
-            position: position.unwrap_or(light.position),
-            intensity: intensity.unwrap_or(light.intensity),
-            radius: radius.unwrap_or(light.radius),
-        };
+    let attenuates = check(ui, light.distance_constant.is_some(), groups.attenuation);
+    let distance_constant = match attenuates {
+        Some(attenuates) => attenuates.then_some(1.0),
+        None => light
+            .distance_constant
+            .map(|constant| number_row(ui, &name, "K", constant, &Scale::LENGTH).unwrap_or(constant)),
+    };
+    let edited = Light {
+        position: position.unwrap_or(light.position),
+        intensity: intensity.unwrap_or(light.intensity),
+        radius: radius.unwrap_or(light.radius),
+        distance_constant,
+    };
+    if edited != *light {
         actions.push(Action::SetLight(index, edited));
     }
     if ui.button(format!("{} {number}", groups.delete_light)).clicked() {

@@ -142,6 +142,7 @@ fn sets_a_value(action: &Action) -> bool {
             | Action::SetMaterial(_)
             | Action::SetLight(..)
             | Action::SetBackground(_)
+            | Action::SetAmbientLight(_)
             | Action::SetMaxDepth(_)
             | Action::SetVerticalFov(_)
             | Action::SetSampling(_)

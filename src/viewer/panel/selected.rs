@@ -3,7 +3,7 @@
 use egui::Ui;
 use glam::DVec3;
 
-use super::fields::{RGB, Scale, XYZ, group, number, vector};
+use super::fields::{RGB, Scale, XYZ, check, group, number, number_row, vector};
 use crate::scene::{Material, Solid};
 use crate::viewer::action::Action;
 use crate::viewer::document::Document;
@@ -66,18 +66,42 @@ pub fn show_rotating(
 }
 
 pub fn show_material(ui: &mut Ui, words: &Words, document: &Document, actions: &mut Vec<Action>) {
-    let title = words.groups.material;
+    let groups = &words.groups;
+    let title = groups.material;
     let material = document.selected().map_or_else(Material::default, |primitive| primitive.material.clone());
     group(ui, "material", title, |ui| {
         let edited = for_selected(ui, document, |ui| {
             let color = vector(ui, title, RGB, material.color, &Scale::SHARE);
-            let [ambient, diffuse, specular] = ui
-                .horizontal_wrapped(|ui| {
-                    [("K_a", material.ambient), ("K_d", material.diffuse), ("K_s", material.specular)]
-                        .map(|(label, value)| number(ui, title, label, value, &Scale::SHARE).unwrap_or(value))
-                })
-                .inner;
-            Material { color: color.unwrap_or(material.color), ambient, diffuse, specular }
+            let shares = [
+                ("K_a", material.ambient),
+                ("K_d", material.diffuse),
+                ("K_s", material.specular),
+                ("K_t", material.transmission),
+            ];
+            let edit = |ui: &mut Ui| {
+                shares.map(|(label, value)| number(ui, title, label, value, &Scale::SHARE).unwrap_or(value))
+            };
+            let [ambient, diffuse, specular, transmission] = ui.horizontal_wrapped(edit).inner;
+            let row = |ui: &mut Ui, label, value, scale| number_row(ui, title, label, value, scale).unwrap_or(value);
+            let shininess = row(ui, groups.shininess, material.shininess, &Scale::SHININESS);
+            let refractive_index =
+                row(ui, groups.refractive_index, material.refractive_index, &Scale::REFRACTIVE_INDEX);
+            let has_own = check(ui, material.reflection.is_some(), groups.own_reflection);
+            let reflection = match has_own {
+                Some(true) => Some(material.reflection()),
+                Some(false) => None,
+                None => material.reflection.map(|reflection| row(ui, "K_r", reflection, &Scale::SHARE)),
+            };
+            Material {
+                color: color.unwrap_or(material.color),
+                ambient,
+                diffuse,
+                specular,
+                reflection,
+                shininess,
+                transmission,
+                refractive_index,
+            }
         });
         if edited != material {
             actions.push(Action::SetMaterial(edited));
