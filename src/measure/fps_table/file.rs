@@ -7,10 +7,13 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::chart::chart;
 use super::figures::{Figures, figures};
-use super::{Agreement, Algorithm, Cell, Clock, FpsTable, Machine, Plan, chart, csv, markdown, published};
-use crate::frame::Frame;
-use crate::measure::output::{OutputError, ReportFormat, Table};
+use super::records::records;
+use super::tables::blocks;
+use super::{Agreement, Algorithm, Cell, Clock, FpsTable, Machine, Plan, published};
+use crate::measure::output::chart::Chart;
+use crate::measure::output::{Document, OutputError, ReportFormat, Table};
 
 /// What a table's JSON says it is. The number is raised when an older program could not read it rightly.
 const FORMAT: &str = "zerkalo-fps-2";
@@ -38,7 +41,7 @@ impl FpsTableError {
 
 /// What JSON has besides the table itself, calculated from it and not read back.
 #[derive(Serialize)]
-struct Document<'a> {
+struct Data<'a> {
     format: &'static str,
     #[serde(flatten)]
     table: &'a FpsTable,
@@ -63,12 +66,12 @@ struct Head {
     format: String,
 }
 
-impl Table for FpsTable {
-    fn to_json(&self) -> String {
+impl Document for FpsTable {
+    fn data(&self) -> impl Serialize {
         let agreement = |algorithm| {
             self.plan.algorithms.contains(&algorithm).then(|| Agreement::of(&self.speeds(algorithm, self.clock())))
         };
-        let document = Document {
+        Data {
             format: FORMAT,
             table: self,
             complete: self.missing().is_empty(),
@@ -79,25 +82,19 @@ impl Table for FpsTable {
                 course: agreement(Algorithm::Course),
                 whitted: agreement(Algorithm::Whitted),
             },
-        };
-        // invariant: structures, lists, numbers and texts, all of which JSON has.
-        serde_json::to_string(&document).expect("a table is JSON")
+        }
     }
 
-    fn to_csv(&self) -> String {
-        csv::of(self)
+    fn records(&self) -> Table {
+        records(self)
     }
 
-    fn to_markdown(&self) -> String {
-        markdown::of(self)
+    fn blocks(&self) -> Vec<String> {
+        blocks(self)
     }
 
-    fn to_svg(&self) -> Result<String, OutputError> {
-        chart::svg(self)
-    }
-
-    fn to_frame(&self) -> Result<Frame, OutputError> {
-        chart::png(self)
+    fn chart(&self) -> Chart {
+        chart(self)
     }
 }
 

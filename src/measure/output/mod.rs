@@ -1,16 +1,18 @@
 //! What tables of measurements are written as.
 
-pub mod csv;
-pub mod drawing;
-pub mod markdown;
+pub mod chart;
+mod table;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use thiserror::Error;
 
-use crate::frame::{Frame, FrameError};
+use crate::frame::FrameError;
 use crate::whole_file::WholeFile;
+use chart::Chart;
+pub use table::{Entry, Table, Words, figure};
 
 /// Why a table could not be written; each message is one line.
 #[derive(Debug, Error)]
@@ -81,30 +83,36 @@ impl ReportFormat {
 }
 
 /// Measurements with all forms that they are written in.
-pub trait Table {
+pub trait Document {
+    /// Everything, every sample too: what JSON has.
+    fn data(&self) -> impl Serialize;
+
+    /// A row a measurement, in which all stands that is known of it: what CSV has.
+    fn records(&self) -> Table;
+
+    /// Headings, lists, tables and paragraphs of Markdown, for people, also in a terminal.
+    fn blocks(&self) -> Vec<String>;
+
+    fn chart(&self) -> Chart;
+
     /// One object on one line.
-    fn to_json(&self) -> String;
+    fn to_json(&self) -> String {
+        // invariant: structures, lists, numbers and texts, all of which JSON has.
+        serde_json::to_string(&self.data()).expect("what was measured is JSON")
+    }
 
-    /// A line a cell.
-    fn to_csv(&self) -> String;
-
-    /// Tables for people, also in a terminal.
-    fn to_markdown(&self) -> String;
-
-    /// The chart in lines.
-    fn to_svg(&self) -> Result<String, OutputError>;
-
-    /// The chart in pixels.
-    fn to_frame(&self) -> Result<Frame, OutputError>;
+    fn to_markdown(&self) -> String {
+        self.blocks().join("\n\n") + "\n"
+    }
 
     /// Writes what the name's extension asks for.
     fn save(&self, path: &Path) -> Result<(), OutputError> {
         match ReportFormat::of(path)? {
             ReportFormat::Json => write_text(path, &(self.to_json() + "\n")),
-            ReportFormat::Csv => write_text(path, &self.to_csv()),
+            ReportFormat::Csv => write_text(path, &self.records().to_csv()),
             ReportFormat::Markdown => write_text(path, &self.to_markdown()),
-            ReportFormat::Png => Ok(self.to_frame()?.save(path)?),
-            ReportFormat::Svg => write_text(path, &self.to_svg()?),
+            ReportFormat::Png => Ok(self.chart().to_frame()?.save(path)?),
+            ReportFormat::Svg => write_text(path, &self.chart().to_svg()?),
         }
     }
 }

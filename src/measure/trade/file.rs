@@ -2,26 +2,29 @@
 
 use serde::Serialize;
 
+use super::chart::chart;
 use super::figures::{Answer, Figures, answers, figures};
-use super::{Conditions, SceneTrade, Trade, chart, csv, markdown};
-use crate::frame::Frame;
+use super::records::records;
+use super::tables::blocks;
+use super::{Conditions, SceneTrade, Trade};
 use crate::measure::Machine;
-use crate::measure::output::{OutputError, Table};
+use crate::measure::output::chart::Chart;
+use crate::measure::output::{Document, Table};
 
 /// What the JSON says it is.
 const FORMAT: &str = "zerkalo-trade-1";
 
 #[derive(Serialize)]
-struct Document<'a> {
+struct Data<'a> {
     format: &'static str,
     machine: &'a Machine,
     conditions: &'a Conditions,
-    scenes: Vec<SceneDocument<'a>>,
+    scenes: Vec<SceneData<'a>>,
 }
 
 /// What was measured, and what is calculated from it.
 #[derive(Serialize)]
-struct SceneDocument<'a> {
+struct SceneData<'a> {
     #[serde(flatten)]
     scene: &'a SceneTrade,
     baseline_ns: Option<u64>,
@@ -29,37 +32,31 @@ struct SceneDocument<'a> {
     answers: Vec<Answer>,
 }
 
-impl Table for Trade {
-    fn to_json(&self) -> String {
-        let of_scene = |scene| SceneDocument {
+impl Document for Trade {
+    fn data(&self) -> impl Serialize {
+        let of_scene = |scene| SceneData {
             scene,
             baseline_ns: scene.baseline_ns(),
             figures: figures(scene, &self.conditions),
             answers: answers(scene, &self.conditions),
         };
-        let document = Document {
+        Data {
             format: FORMAT,
             machine: &self.machine,
             conditions: &self.conditions,
             scenes: self.scenes.iter().map(of_scene).collect(),
-        };
-        // invariant: structures, lists, numbers and texts, all of which JSON has.
-        serde_json::to_string(&document).expect("what was measured is JSON")
+        }
     }
 
-    fn to_csv(&self) -> String {
-        csv::of(self)
+    fn records(&self) -> Table {
+        records(self)
     }
 
-    fn to_markdown(&self) -> String {
-        markdown::of(self)
+    fn blocks(&self) -> Vec<String> {
+        blocks(self)
     }
 
-    fn to_svg(&self) -> Result<String, OutputError> {
-        chart::svg(self)
-    }
-
-    fn to_frame(&self) -> Result<Frame, OutputError> {
-        chart::png(self)
+    fn chart(&self) -> Chart {
+        chart(self)
     }
 }
