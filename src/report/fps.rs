@@ -2,18 +2,16 @@
 
 use maud::{Markup, html};
 
-use super::ReportError;
-use super::picture::chart;
 use super::text::{both, table_of};
+use super::{ReportError, picture};
 use crate::measure::Clock;
-use crate::measure::fps_table::{FpsTable, agreement, spreads};
-use crate::measure::output::Document;
+use crate::measure::fps_table::{FpsTable, agreement, chart, spreads};
 
 pub fn body(fps: &FpsTable) -> Result<Markup, ReportError> {
     if fps.cells.is_empty() {
         return Ok(html! {});
     }
-    let drawn = chart(&fps.chart().to_svg()?, "frames a second by number and kind of solids");
+    let drawn = picture::chart(&chart(fps).to_svg()?, "frames a second by number and kind of solids");
     let plan = &fps.plan;
     let (seconds, frames) = (plan.budget.time_ms as f64 / 1e3, plan.budget.frames);
     let clock = match fps.clock() {

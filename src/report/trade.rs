@@ -2,11 +2,10 @@
 
 use maud::{Markup, html};
 
-use super::ReportError;
-use super::picture::chart;
 use super::text::{both, english, table_of, words};
-use crate::measure::output::{Document, figure};
-use crate::measure::trade::{Answer, Figures, SceneTrade, Trade, answers, asked, figures, settings};
+use super::{ReportError, picture};
+use crate::measure::output::figure;
+use crate::measure::trade::{Answer, Figures, SceneTrade, Trade, answers, asked, chart, figures, settings};
 use crate::settings::three_digits;
 
 pub fn body(trade: &Trade) -> Result<Markup, ReportError> {
@@ -36,7 +35,7 @@ fn of_scene(trade: &Trade, scene: &SceneTrade) -> Result<Markup, ReportError> {
     let figures = figures(scene, conditions);
     // Its own chart: a panel a scene stands where the scene is told of.
     let alone = Trade { machine: trade.machine.clone(), conditions: conditions.clone(), scenes: vec![scene.clone()] };
-    let drawn = chart(&alone.chart().to_svg()?, &format!("{}: time of a frame against error", scene.scene));
+    let drawn = picture::chart(&chart(&alone).to_svg()?, &format!("{}: time of a frame against error", scene.scene));
     let settings = settings(scene, &figures);
     Ok(html! {
         h3 { code { (scene.scene) } " "

@@ -7,13 +7,13 @@ mod figures;
 mod file;
 mod measuring;
 mod published;
-mod records;
 mod speeds;
 mod tables;
 
 use serde::{Deserialize, Serialize};
 
 pub use agreement::{Agreement, Bend, Ratio};
+pub use chart::chart;
 pub use figures::{Figures, figures};
 pub use file::FpsTableError;
 pub use measuring::{OffScreen, Stage, measure, no_scene, settings_of};

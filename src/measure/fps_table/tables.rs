@@ -164,14 +164,14 @@ pub fn agreement(table: &FpsTable) -> Table {
     row(
         Words::both(
             "ever more time a frame (its curve bends up)",
-            "время кадра растёт всё быстрее (кривая выгнута вниз)",
+            "время кадра растёт всё быстрее (кривая выпукла вниз)",
         ),
         &|found| tally(found.ever_slower()),
     );
     row(
         Words::both(
             "ever more frames lost (their curve bends down)",
-            "кадры убывают всё быстрее (кривая выгнута вверх)",
+            "кадры убывают всё быстрее (кривая выпукла вверх)",
         ),
         &|found| tally(found.ever_steeper()),
     );

@@ -19,6 +19,8 @@ pub use table::{Entry, Table, Words, figure};
 pub enum OutputError {
     #[error("unknown report format: {path:?} must end in .json, .csv, .md, .png or .svg, or be a folder")]
     UnknownFormat { path: PathBuf },
+    #[error("there is no chart of this for {path:?}: its tables are for .json, .csv and .md")]
+    NoChart { path: PathBuf },
     #[error("could not write {path:?}: {reason}")]
     Write { path: PathBuf, reason: String },
     #[error("could not draw the chart: {reason}")]
@@ -31,7 +33,7 @@ impl OutputError {
     /// Whether what the caller named is at fault, not the machine.
     pub fn is_input_error(&self) -> bool {
         match self {
-            Self::UnknownFormat { .. } => true,
+            Self::UnknownFormat { .. } | Self::NoChart { .. } => true,
             Self::Write { .. } | Self::Chart { .. } => false,
             Self::Frame(error) => error.is_input_error(),
         }
@@ -93,7 +95,10 @@ pub trait Document {
     /// Headings, lists, tables and paragraphs of Markdown, for people, also in a terminal.
     fn blocks(&self) -> Vec<String>;
 
-    fn chart(&self) -> Chart;
+    /// `None` where there is nothing that a chart could show.
+    fn chart(&self) -> Option<Chart> {
+        None
+    }
 
     /// One object on one line.
     fn to_json(&self) -> String {
@@ -107,12 +112,13 @@ pub trait Document {
 
     /// Writes what the name's extension asks for.
     fn save(&self, path: &Path) -> Result<(), OutputError> {
+        let chart = || self.chart().ok_or_else(|| OutputError::NoChart { path: path.to_owned() });
         match ReportFormat::of(path)? {
             ReportFormat::Json => write_text(path, &(self.to_json() + "\n")),
             ReportFormat::Csv => write_text(path, &self.records().to_csv()),
             ReportFormat::Markdown => write_text(path, &self.to_markdown()),
-            ReportFormat::Png => Ok(self.chart().to_frame()?.save(path)?),
-            ReportFormat::Svg => write_text(path, &self.chart().to_svg()?),
+            ReportFormat::Png => Ok(chart()?.to_frame()?.save(path)?),
+            ReportFormat::Svg => write_text(path, &chart()?.to_svg()?),
         }
     }
 }
@@ -131,6 +137,14 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
 pub fn check_output_path(path: &Path) -> Result<(), OutputError> {
     ReportFormat::of(path)?;
     check_writable(path)
+}
+
+/// As [`check_output_path`], of what has no chart.
+pub fn check_table_path(path: &Path) -> Result<(), OutputError> {
+    match ReportFormat::of(path)?.is_chart() {
+        true => Err(OutputError::NoChart { path: path.to_owned() }),
+        false => check_writable(path),
+    }
 }
 
 /// As [`check_output_path`], whatever the name.

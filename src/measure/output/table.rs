@@ -1,5 +1,8 @@
 //! Tables as data, and the forms that each of them is written in.
 
+use serde::Serialize;
+use serde_json::Value;
+
 /// A text in both languages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Words {
@@ -65,6 +68,28 @@ pub struct Table {
 }
 
 impl Table {
+    /// For programs: a row a record, which is a tuple of structures. A column is a key of one of them, or stands for what
+    /// follows its `=`: the way there by keys and places. A list is told by its length.
+    pub fn of_records(columns: &str, records: impl IntoIterator<Item = impl Serialize>) -> Self {
+        let columns = || columns.split(',').map(|column| column.split_once('=').unwrap_or((column, column)));
+        let entry = |record: &Value, way: &str| {
+            let pointer = format!("/{way}");
+            match record.as_array().into_iter().flatten().find_map(|part| part.pointer(&pointer)) {
+                None | Some(Value::Null) => Entry::Absent,
+                Some(Value::Array(list)) => Entry::of(list.len()),
+                Some(Value::Number(number)) if number.is_f64() => Entry::maybe(number.as_f64()),
+                Some(Value::String(text)) => Entry::of(text),
+                Some(value) => Entry::of(value),
+            }
+        };
+        let row = |record| {
+            // invariant: structures, lists, numbers and texts, all of which JSON has.
+            let record = serde_json::to_value(record).expect("a record is JSON");
+            columns().map(|(_, way)| entry(&record, way)).collect()
+        };
+        Self { head: columns().map(|(name, _)| name.into()).collect(), rows: records.into_iter().map(row).collect() }
+    }
+
     /// For programs, in English: the names, and a line a row (RFC 4180). What is not known is empty.
     pub fn to_csv(&self) -> String {
         let mut writer = csv::Writer::from_writer(Vec::new());

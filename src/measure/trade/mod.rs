@@ -12,13 +12,13 @@ mod example;
 mod figures;
 mod file;
 mod measuring;
-mod records;
 mod sweep;
 mod tables;
 mod truth;
 
 use serde::Serialize;
 
+pub use chart::chart;
 pub use choice::{Candidate, Question, contenders, front};
 pub use figures::{Answer, Figures, answers, figures};
 pub use measuring::{Step, measure};
