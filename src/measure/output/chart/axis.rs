@@ -1,3 +1,5 @@
+//! Linear and logarithmic axes.
+
 use crate::settings::three_digits;
 
 /// From values to parts of its length.
@@ -19,6 +21,7 @@ enum Scale {
 }
 
 impl Axis {
+    /// `low` is below `high`.
     pub fn linear(label: &'static str, low: f64, high: f64) -> Self {
         Self { label, low, high, scale: Scale::Linear }
     }
