@@ -13,7 +13,7 @@ use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messa
 use crate::algorithm::Algorithm;
 use crate::gpu::{Device, Messages, Validation};
 use crate::measure::fps_table::{self, FpsTable, OffScreen, Plan, Stage, no_scene, settings_of};
-use crate::measure::output::{OutputError, ReportFormat, Table, check_output_path};
+use crate::measure::output::{Document, OutputError, ReportFormat, check_output_path};
 use crate::measure::{Budget, FrameTime, Machine};
 use crate::scene::{Scene, SolidKind};
 use crate::tracer::{Settings, TracerError};

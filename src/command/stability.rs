@@ -7,14 +7,16 @@ use std::sync::Arc;
 use anyhow::Result;
 use clap::Args;
 use serde::Serialize;
+use serde_json::json;
 
 use super::interrupt::Listener;
 use super::options::parse_algorithm;
-use super::{DeviceArgs, ValidationArgs, print_json, print_line, progress_bar, refuse_messages};
+use super::{DeviceArgs, ValidationArgs, print_line, progress_bar, refuse_messages};
 use crate::algorithm::{ALGORITHMS, Algorithm, Description, Kernel, Precision};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription};
-use crate::measure::stability::{Passed, Row, Summary, error_sheet, short, try_all};
+use crate::measure::output::{Document, ReportFormat, Table, check_table_path};
+use crate::measure::stability::{Row, error_sheet, summary, trials, try_all};
 use crate::settings::RenderSettings;
 use crate::tracer::TracerError;
 
@@ -35,9 +37,9 @@ pub struct StabilityArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Draw the error maps worth looking at into a PNG file
-    #[arg(short, long, value_name = "SHEET")]
-    pub output: Option<PathBuf>,
+    /// Where to write the table (.json, .csv, .md), or the error maps worth looking at (.png, .exr); may be repeated
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
     #[command(flatten)]
     pub device: DeviceArgs,
     #[command(flatten)]
@@ -54,6 +56,26 @@ struct Report<'a> {
     cases: &'a [Row],
 }
 
+impl Document for Report<'_> {
+    fn data(&self) -> impl Serialize {
+        self
+    }
+
+    fn records(&self) -> Table {
+        let columns = "case=id,kernel,precision,pass,what,measured,bound,quick,device,driver";
+        let conditions = json!({ "quick": self.quick, "device": self.device, "driver": self.driver });
+        Table::of_records(columns, self.cases.iter().map(|row| (row, &conditions)))
+    }
+
+    fn blocks(&self) -> Vec<String> {
+        let mut told = vec![format!("- device: {} ({})", self.device, self.driver)];
+        told.extend(self.quick.then(|| "- fewer rays and smaller pictures".to_owned()));
+        told.extend((!self.complete).then(|| "- not complete: these are the trials before Ctrl-C".to_owned()));
+        let (trials, summary) = (trials(self.cases).to_markdown(), summary(self.cases).to_markdown());
+        vec!["# The catalogue of numerical extremes".to_owned(), told.join("\n"), trials, summary]
+    }
+}
+
 /// Cases failed on the accurate kernel, or before any kernel.
 #[derive(Debug, thiserror::Error)]
 #[error("{count} case(s) failed: {ids}")]
@@ -63,9 +85,10 @@ pub struct CasesFailed {
 }
 
 pub fn run(args: &StabilityArgs) -> Result<()> {
-    if let Some(output) = &args.output {
-        Frame::check_output_path(output)?;
-    }
+    let (tables, sheets): (Vec<_>, Vec<_>) =
+        args.output.iter().partition(|path| ReportFormat::of(path).is_ok_and(|format| !format.is_chart()));
+    tables.iter().try_for_each(|path| check_table_path(path))?;
+    sheets.iter().try_for_each(|path| Frame::check_output_path(path))?;
     let device = Device::open(args.device.device.as_deref(), args.validation.validation())?;
     let kernels = kernels(args, device.description())?;
     let messages = device.messages().clone();
@@ -74,19 +97,14 @@ pub fn run(args: &StabilityArgs) -> Result<()> {
     let listener = Listener::start();
     let mut rows = Vec::new();
     let is_complete = try_all_watched(&device, &kernels, args.quick, &mut rows, &listener)?;
-    if let Some(output) = args.output.as_ref().filter(|_| is_complete) {
-        sheet(&device, &listener)?.save(output)?;
+    if is_complete && !sheets.is_empty() {
+        let sheet = sheet(&device, &listener)?;
+        sheets.iter().try_for_each(|path| sheet.save(path))?;
     }
     drop(device);
-    if args.json {
-        let (device, driver) = (name.as_str(), driver.as_str());
-        print_json(&Report { device, driver, quick: args.quick, complete: is_complete, cases: &rows })?;
-    } else {
-        print_line(&format!("{name} ({driver})"))?;
-        rows.iter().try_for_each(|row| print_line(&line(row)))?;
-        print_line("")?;
-        summary(&rows).iter().try_for_each(|line| print_line(line))?;
-    }
+    let report = Report { device: &name, driver: &driver, quick: args.quick, complete: is_complete, cases: &rows };
+    tables.iter().try_for_each(|path| report.save(path))?;
+    print_line(if args.json { report.to_json() } else { report.to_markdown() }.trim_end())?;
     if !is_complete {
         return Err(TracerError::Stopped.into());
     }
@@ -149,26 +167,4 @@ fn sheet(device: &Arc<Device>, listener: &Listener) -> Result<Frame, TracerError
     });
     bar.finish_and_clear();
     sheet
-}
-
-fn line(row: &Row) -> String {
-    let Row { id, kernel, precision, pass, what, measured, bound } = row;
-    let (precision, verdict) = (precision.unwrap_or(""), if *pass { "pass" } else { "FAIL" });
-    format!("{id:<11} {kernel:<8} {precision:<4} {verdict}  {what}: {} (at most {})", short(*measured), short(*bound))
-}
-
-/// A line a group of cases, a column a kernel: how many passed of how many.
-fn summary(rows: &[Row]) -> Vec<String> {
-    let Summary { subjects, groups, all } = Summary::of(rows);
-    let cells = |first: &str, cells: Vec<String>| {
-        let cells: String = cells.iter().map(|cell| format!("{cell:>13}")).collect();
-        format!("{first:<7}{cells}").trim_end().to_owned()
-    };
-    let told = |Passed { passed, tried }: Passed| format!("{passed} of {tried}");
-    let mut lines = vec![cells("passed", subjects)];
-    for (name, of_group) in groups {
-        lines.push(cells(&name, of_group.into_iter().map(|cell| cell.map_or("-".to_owned(), told)).collect()));
-    }
-    lines.push(cells("all", all.into_iter().map(told).collect()));
-    lines
 }

@@ -14,7 +14,7 @@ use super::options::{Contradictory, parse_algorithm, parse_error, parse_size};
 use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files, scene_named};
 use crate::algorithm::{Algorithm, Description};
 use crate::gpu::Device;
-use crate::measure::output::Table;
+use crate::measure::output::Document;
 use crate::measure::trade::{
     self, Axes, Conditions, Counted, Question, SceneTrade, Step, Sweep, Trade, Truth, TruthError, measure, truth,
 };

@@ -1,17 +1,18 @@
 //! `zerkalo validate`: everything that can be drawn, under the validation layers.
 
 use std::ops::ControlFlow;
+use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::Args;
 
 use super::interrupt::Listener;
-use super::{Checks, DeviceArgs, ValidationFailed, print_json, print_line, progress_bar};
+use super::{Checks, DeviceArgs, ValidationFailed, print_line, progress_bar};
 use crate::gpu::{self, Device, Messages, Validation};
+use crate::measure::output::{Document, check_table_path};
 use crate::tracer::{Kernel, Settings, TracerError, limits_of};
 use crate::validation::{
-    Findings, Group, OffScreen, Outcome, PICTURE, Pass, Program, Remarked, Run, Scope, Switch, TriedCheck,
-    draw_off_screen, instrumented, runs,
+    Findings, OffScreen, Outcome, PICTURE, Pass, Program, Run, Scope, TriedCheck, draw_off_screen, instrumented, runs,
 };
 use crate::viewer::{Display, PictureWindow};
 
@@ -29,6 +30,9 @@ pub struct ValidateArgs {
     /// What to check, one after the other
     #[arg(long, value_enum, value_name = "CHECKS", default_value_t = Checks::All)]
     pub validate: Checks,
+    /// Where to write what was found: a file (.json with every run, .csv of the messages, .md); may be repeated
+    #[arg(short, long, value_name = "FILE")]
+    pub output: Vec<PathBuf>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -54,6 +58,7 @@ pub(super) struct Next<'a> {
 pub(super) type Watch<'a> = &'a (dyn Fn(Option<Next<'_>>) -> ControlFlow<()> + Sync);
 
 pub fn run(args: &ValidateArgs) -> Result<()> {
+    args.output.iter().try_for_each(|path| check_table_path(path))?;
     let (listener, bar) = (Listener::start(), progress_bar(0));
     let watch = |next: Option<Next<'_>>| {
         if listener.stop_requested() {
@@ -68,11 +73,8 @@ pub fn run(args: &ValidateArgs) -> Result<()> {
     };
     let (outcome, drawn) = validated(args, &watch)?;
     bar.finish_and_clear();
-    if args.json {
-        print_json(&outcome)?;
-    } else {
-        lines(&outcome).iter().try_for_each(|line| print_line(line))?;
-    }
+    args.output.iter().try_for_each(|path| outcome.save(path))?;
+    print_line(if args.json { outcome.to_json() } else { outcome.to_markdown() }.trim_end())?;
     drawn?;
     if outcome.message_count > 0 {
         return Err(ValidationFailed { count: outcome.message_count }.into());
@@ -208,62 +210,6 @@ fn is_at(run: &Run, place: usize, pass: &mut Pass, all: usize, watch: Watch<'_>)
     watch(is_new.then_some(Next { name: &run.name, all }))?;
     pass.begun += usize::from(is_new);
     ControlFlow::Continue(())
-}
-
-fn lines(outcome: &Outcome) -> Vec<String> {
-    let Outcome { device, driver, layer, width, height, .. } = outcome;
-    let mut lines = vec![
-        format!("{device} ({driver})"),
-        layer.to_string(),
-        String::new(),
-        "checks, each tried by a mistake made on purpose:".to_owned(),
-    ];
-    lines.extend(outcome.checks.chunk_by(|a, b| a.validation == b.validation).map(line_of_checks));
-    lines.extend([
-        "  synchronization is the layer's, which passes over dispatches; hazards are in this program's own book"
-            .to_owned(),
-        String::new(),
-        format!("pictures of {width}x{height} pixels:"),
-    ]);
-    lines.extend(outcome.passes.iter().map(line_of_pass));
-    lines.extend(outcome.no_window.iter().map(|reason| format!("  none in a window: {reason}")));
-    lines.push("  not covered: the panel beside the window's picture".to_owned());
-    let switches = outcome.switches.iter().map(|Switch { name, on, off }| format!("{name} {on}/{off}"));
-    lines.push(format!("  on/off in the plans of all of them: {}", switches.collect::<Vec<_>>().join(", ")));
-    lines.push(String::new());
-    lines.push(format!("messages: {}", outcome.message_count));
-    lines.extend(outcome.messages.iter().flat_map(lines_of_group));
-    lines.extend(outcome.remarks.iter().map(|Remarked { count, remark }| format!("no fault: {count} of {remark}")));
-    lines
-}
-
-fn line_of_checks(checks: &[TriedCheck]) -> String {
-    let word =
-        |tried: &TriedCheck| format!("{} {}", tried.check.name(), if tried.works { "works" } else { "IS NOT DONE" });
-    let validation = checks.first().map_or("", |tried| tried.validation);
-    format!("  {validation:<15} {}", checks.iter().map(word).collect::<Vec<_>>().join(", "))
-}
-
-fn line_of_pass(pass: &Pass) -> String {
-    let Pass { validation, in_window, runs, begun } = pass;
-    let place = if *in_window { " in a window, without waiting for the display" } else { "" };
-    let stopped = if begun < runs { format!("; {begun} of them were begun") } else { String::new() };
-    format!("  {validation:<15} {runs} runs{place}{stopped}")
-}
-
-/// Runs that a group is told with; JSON has all.
-const RUNS_TOLD: usize = 3;
-
-fn lines_of_group(group: &Group) -> Vec<String> {
-    let Group { severity, id, count, text, runs } = group;
-    let more = runs.len().saturating_sub(RUNS_TOLD);
-    let more = if more > 0 { format!("; and {more} more") } else { String::new() };
-    let told = runs.iter().take(RUNS_TOLD).map(String::as_str).collect::<Vec<_>>().join("; ");
-    vec![
-        format!("{count} of {id} ({})", severity.name()),
-        format!("  {}", text.trim()),
-        format!("  met by: {told}{more}"),
-    ]
 }
 
 #[cfg(test)]

@@ -4,6 +4,8 @@ use std::time::Duration;
 
 use maud::{Markup, Render, html};
 
+use crate::measure::output::{Entry, Table, Words};
+
 /// One text in both languages, of which the page shows one.
 pub fn both(english: impl Render, russian: impl Render) -> Markup {
     html! {
@@ -17,8 +19,18 @@ pub fn english(text: impl Render) -> Markup {
     html! { span lang="en" { (text) } }
 }
 
+/// As [`both`], or as they are where both are alike.
+pub fn words(words: &Words) -> Markup {
+    let Words { english, russian } = words;
+    if english == russian {
+        html! { (english) }
+    } else {
+        both(english, russian)
+    }
+}
+
 pub fn yes_no(is_so: bool) -> Markup {
-    if is_so { both("yes", "да") } else { both("no", "нет") }
+    words(&Words::yes_no(is_so))
 }
 
 /// What is not known, or not there.
@@ -55,6 +67,17 @@ pub fn table(head: &[Markup], rows: &[Vec<Markup>]) -> Markup {
             }
         }
     }
+}
+
+/// As [`table`].
+pub fn table_of(Table { head, rows }: &Table) -> Markup {
+    let cell = |entry: &Entry| match entry {
+        Entry::Absent => dash(),
+        Entry::Text(text) => words(text),
+        Entry::Lacking(text) => html! { span.lacking { (words(text)) } },
+    };
+    let rows: Vec<Vec<Markup>> = rows.iter().map(|row| row.iter().map(cell).collect()).collect();
+    table(&head.iter().map(words).collect::<Vec<_>>(), &rows)
 }
 
 /// Commands to be copied.

@@ -2,12 +2,10 @@
 
 use maud::{Markup, html};
 
-use super::ReportError;
-use super::picture::chart;
-use super::text::{both, english, table};
-use crate::measure::output::Table;
-use crate::measure::output::markdown::figure;
-use crate::measure::trade::{Answer, Figures, Question, SceneTrade, Trade, answers, figures, rows};
+use super::text::{both, english, table_of, words};
+use super::{ReportError, picture};
+use crate::measure::output::figure;
+use crate::measure::trade::{Answer, Figures, SceneTrade, Trade, answers, asked, chart, figures, settings};
 use crate::settings::three_digits;
 
 pub fn body(trade: &Trade) -> Result<Markup, ReportError> {
@@ -37,19 +35,8 @@ fn of_scene(trade: &Trade, scene: &SceneTrade) -> Result<Markup, ReportError> {
     let figures = figures(scene, conditions);
     // Its own chart: a panel a scene stands where the scene is told of.
     let alone = Trade { machine: trade.machine.clone(), conditions: conditions.clone(), scenes: vec![scene.clone()] };
-    let drawn = chart(&alone.to_svg()?, &format!("{}: time of a frame against error", scene.scene));
-    let cells = |row: [String; 11]| {
-        row.iter()
-            .map(|cell| {
-                if cell == "*" {
-                    html! { "★" }
-                } else {
-                    html! { (cell) }
-                }
-            })
-            .collect::<Vec<_>>()
-    };
-    let settings: Vec<Vec<Markup>> = rows(scene, &figures).into_iter().map(cells).collect();
+    let drawn = picture::chart(&chart(&alone).to_svg()?, &format!("{}: time of a frame against error", scene.scene));
+    let settings = settings(scene, &figures);
     Ok(html! {
         h3 { code { (scene.scene) } " "
             (both(format!("{} solids, {} generations", scene.solids, scene.max_depth),
@@ -60,8 +47,8 @@ fn of_scene(trade: &Trade, scene: &SceneTrade) -> Result<Markup, ReportError> {
         @for answer in answers(scene, conditions) { (told(&answer, &figures)) }
         (drawn)
         details {
-            summary { (both(format!("every setting: {}", settings.len()), format!("все настройки: {}", settings.len()))) }
-            (table(&head(), &settings))
+            summary { (both(format!("every setting: {}", settings.rows.len()), format!("все настройки: {}", settings.rows.len()))) }
+            (table_of(&settings))
             @if !scene.left_out.is_empty() {
                 p { (both("Not measured:", "Не измерены:")) }
                 ul { @for left_out in &scene.left_out {
@@ -74,23 +61,10 @@ fn of_scene(trade: &Trade, scene: &SceneTrade) -> Result<Markup, ReportError> {
 
 /// A question with its answer, in a sentence.
 fn told(answer: &Answer, figures: &[Figures]) -> Markup {
-    let asked = match answer.question {
-        Question::Error(error) => {
-            let error = three_digits(error);
-            both(format!("The fastest within an error of {error}: "), format!("Самая быстрая с ошибкой до {error}: "))
-        }
-        Question::Fps(fps) => {
-            let fps = three_digits(fps);
-            both(
-                format!("The most accurate at {fps} frames a second: "),
-                format!("Самая точная при {fps} кадрах в секунду: "),
-            )
-        }
-    };
     let found = answer.place.map(|place| &figures[place]);
     html! {
         p.verdict {
-            (asked)
+            (words(&asked(answer.question))) ": "
             @if let Some(found) = found {
                 b { (found.name) }
                 @if let (Some(time_ns), Some(error)) = (found.time_ns, found.largest_error) {
@@ -102,20 +76,4 @@ fn told(answer: &Answer, figures: &[Figures]) -> Markup {
             } @else { (both("no setting of the sweep.", "такой настройки среди измеренных нет.")) }
         }
     }
-}
-
-fn head() -> [Markup; 11] {
-    [
-        both("setting", "настройка"),
-        both("front", "фронт"),
-        both("ms [quartiles]", "мс [квартили]"),
-        both("of baseline", "от базовой"),
-        both("max error", "наиб. ошибка"),
-        both("off edges", "вне границ"),
-        both("edges differing", "отличия на границах"),
-        both("RMSE", "СКО"),
-        both("PSNR, dB", "PSNR, дБ"),
-        html! { "FLIP" },
-        both("proven bound", "доказанная граница"),
-    ]
 }

@@ -589,7 +589,8 @@ fn plan_refuses_wrong_wishes() {
 #[test]
 fn stability_prints_a_row_a_case_and_fails_only_for_the_accurate_kernel() {
     let place = Place::new();
-    let report = place.json(&["stability", "--quick", "--algorithm", "plain", "--json", "-o", "sheet.png"]);
+    let files = ["-o", "sheet.png", "-o", "table.json", "-o", "table.csv", "-o", "table.md"];
+    let report = place.json(&[&["stability", "--quick", "--algorithm", "plain", "--json"][..], &files].concat());
     assert_eq!(keys(&report), ["cases", "complete", "device", "driver", "quick"].into());
     let cases = report["cases"].as_array().unwrap();
     assert!(cases.len() > 80);
@@ -599,15 +600,23 @@ fn stability_prints_a_row_a_case_and_fails_only_for_the_accurate_kernel() {
     let failed = cases.iter().filter(|case| case["pass"] == false).count();
     assert!(failed > 20, "plain quadratics fail much, and that is no failure of the program");
     assert!(Frame::load(&place.path("sheet.png")).is_ok());
+    let [json, csv, markdown] = ["json", "csv", "md"]
+        .map(|extension| fs::read_to_string(place.path("table").with_extension(extension)).unwrap());
+    assert_eq!(serde_json::from_str::<Value>(&json).unwrap(), report);
+    let head = "case,kernel,precision,pass,what,measured,bound,quick,device,driver";
+    assert_eq!((csv.lines().next(), csv.lines().count()), (Some(head), 1 + cases.len()));
+    let failures = |text: &str, mark: &str| text.lines().filter(|line| line.contains(mark)).count();
+    assert_eq!((failures(&csv, ",false,"), failures(&markdown, " FAIL ")), (failed, failed));
 }
 
 #[test]
-fn stability_refuses_what_it_cannot_try() {
+fn stability_and_validate_refuse_what_they_cannot_do() {
     let place = Place::new();
     for (arguments, words) in [
         (&["stability", "--algorithm", "course", "--precision", "f64"][..], "f32 only"),
         (&["stability", "--algorithm", "reference"], "invalid value"),
         (&["stability", "-o", "sheet.jpg"], "sheet.jpg"),
+        (&["validate", "-o", "chart.svg"], "chart.svg"),
     ] {
         let run = place.run(arguments);
         assert_eq!((run.code, run.stdout.as_str()), (Some(2), ""), "{}", run.stderr);

@@ -1,10 +1,11 @@
 //! `zerkalo validate` as a user meets it.
 
+use std::fs;
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use crate::place::interrupted;
+use crate::place::{Place, interrupted};
 use serde_json::Value;
 
 /// Where there is no display.
@@ -61,8 +62,16 @@ fn everything_drawn_is_drawn_without_a_message_and_every_check_was_on() {
 
 #[test]
 fn one_kind_of_checks_is_done_alone() {
-    let output = command(&["--quick", "--json", "--validate", "best-practices"]).output().unwrap();
+    let place = Place::new();
+    let files = ["json", "csv", "md"].map(|extension| place.path("found").with_extension(extension));
+    let outputs = files.iter().flat_map(|path| ["-o", path.to_str().unwrap()]).collect::<Vec<_>>();
+    let arguments = [&["--quick", "--json", "--validate", "best-practices"][..], &outputs].concat();
+    let output = command(&arguments).output().unwrap();
     let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let [json, csv, markdown] = files.map(|path| fs::read_to_string(path).unwrap());
+    assert_eq!(serde_json::from_str::<Value>(&json).unwrap(), report);
+    assert_eq!(csv, "severity,id,count,text,runs,quick,device,driver\n", "there is no message");
+    assert!(markdown.contains("| best practices |") && markdown.contains("messages: 0"), "{markdown}");
     assert_eq!((output.status.code(), &report["message_count"]), (Some(0), &0.into()));
     let passes = report["passes"].as_array().unwrap();
     assert_eq!((passes.len(), &passes[0]["validation"]), (1, &"best practices".into()));

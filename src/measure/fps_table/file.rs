@@ -7,13 +7,26 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::chart::chart;
 use super::figures::{Figures, figures};
-use super::{Agreement, Algorithm, Cell, Clock, FpsTable, Machine, Plan, chart, csv, markdown, published};
-use crate::frame::Frame;
-use crate::measure::output::{OutputError, ReportFormat, Table};
+use super::tables::blocks;
+use super::{Agreement, Algorithm, Cell, Clock, FpsTable, Machine, Plan, published};
+use crate::measure::output::chart::Chart;
+use crate::measure::output::{Document, OutputError, ReportFormat, Table};
 
 /// What a table's JSON says it is. The number is raised when an older program could not read it rightly.
 const FORMAT: &str = "zerkalo-fps-2";
+
+/// Of CSV.
+const COLUMNS: &str = "kind,count,kernel=algorithm,\
+    gpu_fps,gpu_frames=gpu/count,gpu_median_ns=gpu/median_ns,gpu_first_quartile_ns=gpu/quartiles_ns/0,\
+    gpu_third_quartile_ns=gpu/quartiles_ns/1,gpu_min_ns=gpu/min_ns,gpu_max_ns=gpu/max_ns,gpu_stddev_ns=gpu/stddev_ns,\
+    gpu_outliers=gpu/outliers,\
+    wall_fps,wall_frames=wall/count,wall_median_ns=wall/median_ns,wall_first_quartile_ns=wall/quartiles_ns/0,\
+    wall_third_quartile_ns=wall/quartiles_ns/1,wall_min_ns=wall/min_ns,wall_max_ns=wall/max_ns,\
+    wall_stddev_ns=wall/stddev_ns,wall_outliers=wall/outliers,\
+    published_fps,of_fewest,published_of_fewest,of_spheres,published_of_spheres,\
+    width,height,generations,device,driver,program,validation,present_mode";
 
 /// Why a table could not be read, written or gone on with; each message is one line.
 #[derive(Debug, Error)]
@@ -38,7 +51,7 @@ impl FpsTableError {
 
 /// What JSON has besides the table itself, calculated from it and not read back.
 #[derive(Serialize)]
-struct Document<'a> {
+struct Data<'a> {
     format: &'static str,
     #[serde(flatten)]
     table: &'a FpsTable,
@@ -63,12 +76,12 @@ struct Head {
     format: String,
 }
 
-impl Table for FpsTable {
-    fn to_json(&self) -> String {
+impl Document for FpsTable {
+    fn data(&self) -> impl Serialize {
         let agreement = |algorithm| {
             self.plan.algorithms.contains(&algorithm).then(|| Agreement::of(&self.speeds(algorithm, self.clock())))
         };
-        let document = Document {
+        Data {
             format: FORMAT,
             table: self,
             complete: self.missing().is_empty(),
@@ -79,25 +92,20 @@ impl Table for FpsTable {
                 course: agreement(Algorithm::Course),
                 whitted: agreement(Algorithm::Whitted),
             },
-        };
-        // invariant: structures, lists, numbers and texts, all of which JSON has.
-        serde_json::to_string(&document).expect("a table is JSON")
+        }
     }
 
-    fn to_csv(&self) -> String {
-        csv::of(self)
+    /// A row a cell; the machine stands in every row, so that none is read without it.
+    fn records(&self) -> Table {
+        Table::of_records(COLUMNS, figures(self).iter().map(|figures| (figures, &self.plan, &self.machine)))
     }
 
-    fn to_markdown(&self) -> String {
-        markdown::of(self)
+    fn blocks(&self) -> Vec<String> {
+        blocks(self)
     }
 
-    fn to_svg(&self) -> Result<String, OutputError> {
-        chart::svg(self)
-    }
-
-    fn to_frame(&self) -> Result<Frame, OutputError> {
-        chart::png(self)
+    fn chart(&self) -> Option<Chart> {
+        Some(chart(self))
     }
 }
 
@@ -245,5 +253,21 @@ mod tests {
         assert_eq!(document["agreement"]["published"]["order_agrees"], true);
         assert_eq!(document["agreement"]["course"]["order_agrees"], false);
         assert!(document["agreement"]["whitted"].is_null());
+    }
+    #[test]
+    fn csv_has_a_line_a_cell_with_all_that_is_known_of_it() {
+        let mut table = example(&[10, 100], &BOTH);
+        table.cells[0].gpu_samples_ns = None;
+        table.cells[1].wall_samples_ns.push(900_000_000);
+        table.machine.present_mode = Some("mailbox".to_owned());
+        let text = table.records().to_csv();
+        let lines: Vec<_> = text.lines().collect();
+        assert_eq!(lines.len(), 17);
+        let device = "160,70,20,\"a device, of \"\"two\"\" cores\",driver 1,z 1,false,mailbox";
+        let wall = "99.50248756218906,5,10050000,10050000,10050000,10000000,10100000,35355.33905932738,0";
+        assert_eq!(lines[1], format!("sphere,10,course,,,,,,,,,,{wall},57.1419,1,1,1,1,{device}"));
+        let gpu = "200,5,5000000,5000000,5000000,5000000,5000000,0,0";
+        assert!(lines[2].starts_with(&format!("sphere,10,whitted,{gpu},198.01980198019803,6,5050000,")), "{text}");
+        assert!(lines[2].contains(",900000000,") && lines[2].contains(",1,57.1419,1,1,1,1,160,"), "{text}");
     }
 }

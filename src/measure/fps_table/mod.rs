@@ -3,23 +3,23 @@
 
 mod agreement;
 mod chart;
-mod csv;
 mod figures;
 mod file;
-mod markdown;
 mod measuring;
 mod published;
 mod speeds;
+mod tables;
 
 use serde::{Deserialize, Serialize};
 
 pub use agreement::{Agreement, Bend, Ratio};
+pub use chart::chart;
 pub use figures::{Figures, figures};
 pub use file::FpsTableError;
-pub use markdown::spread;
 pub use measuring::{OffScreen, Stage, measure, no_scene, settings_of};
 pub use published::{CLAIMED_OF_SPHERES, CLAIMED_ORDER, published};
 pub use speeds::Speeds;
+pub use tables::{agreement, spreads};
 
 use super::{Budget, Clock, Machine, Summary};
 use crate::algorithm::{Algorithm, Kernel, Precision};

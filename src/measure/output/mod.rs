@@ -1,22 +1,26 @@
 //! What tables of measurements are written as.
 
-pub mod csv;
-pub mod drawing;
-pub mod markdown;
+pub mod chart;
+mod table;
 
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use serde::Serialize;
 use thiserror::Error;
 
-use crate::frame::{Frame, FrameError};
+use crate::frame::FrameError;
 use crate::whole_file::WholeFile;
+use chart::Chart;
+pub use table::{Entry, Table, Words, figure};
 
 /// Why a table could not be written; each message is one line.
 #[derive(Debug, Error)]
 pub enum OutputError {
     #[error("unknown report format: {path:?} must end in .json, .csv, .md, .png or .svg, or be a folder")]
     UnknownFormat { path: PathBuf },
+    #[error("there is no chart of this for {path:?}: its tables are for .json, .csv and .md")]
+    NoChart { path: PathBuf },
     #[error("could not write {path:?}: {reason}")]
     Write { path: PathBuf, reason: String },
     #[error("could not draw the chart: {reason}")]
@@ -29,7 +33,7 @@ impl OutputError {
     /// Whether what the caller named is at fault, not the machine.
     pub fn is_input_error(&self) -> bool {
         match self {
-            Self::UnknownFormat { .. } => true,
+            Self::UnknownFormat { .. } | Self::NoChart { .. } => true,
             Self::Write { .. } | Self::Chart { .. } => false,
             Self::Frame(error) => error.is_input_error(),
         }
@@ -81,30 +85,40 @@ impl ReportFormat {
 }
 
 /// Measurements with all forms that they are written in.
-pub trait Table {
+pub trait Document {
+    /// Everything, every sample too: what JSON has.
+    fn data(&self) -> impl Serialize;
+
+    /// A row a measurement, in which all stands that is known of it: what CSV has.
+    fn records(&self) -> Table;
+
+    /// Headings, lists, tables and paragraphs of Markdown, for people, also in a terminal.
+    fn blocks(&self) -> Vec<String>;
+
+    /// `None` where there is nothing that a chart could show.
+    fn chart(&self) -> Option<Chart> {
+        None
+    }
+
     /// One object on one line.
-    fn to_json(&self) -> String;
+    fn to_json(&self) -> String {
+        // invariant: structures, lists, numbers and texts, all of which JSON has.
+        serde_json::to_string(&self.data()).expect("what was measured is JSON")
+    }
 
-    /// A line a cell.
-    fn to_csv(&self) -> String;
-
-    /// Tables for people, also in a terminal.
-    fn to_markdown(&self) -> String;
-
-    /// The chart in lines.
-    fn to_svg(&self) -> Result<String, OutputError>;
-
-    /// The chart in pixels.
-    fn to_frame(&self) -> Result<Frame, OutputError>;
+    fn to_markdown(&self) -> String {
+        self.blocks().join("\n\n") + "\n"
+    }
 
     /// Writes what the name's extension asks for.
     fn save(&self, path: &Path) -> Result<(), OutputError> {
+        let chart = || self.chart().ok_or_else(|| OutputError::NoChart { path: path.to_owned() });
         match ReportFormat::of(path)? {
             ReportFormat::Json => write_text(path, &(self.to_json() + "\n")),
-            ReportFormat::Csv => write_text(path, &self.to_csv()),
+            ReportFormat::Csv => write_text(path, &self.records().to_csv()),
             ReportFormat::Markdown => write_text(path, &self.to_markdown()),
-            ReportFormat::Png => Ok(self.to_frame()?.save(path)?),
-            ReportFormat::Svg => write_text(path, &self.to_svg()?),
+            ReportFormat::Png => Ok(chart()?.to_frame()?.save(path)?),
+            ReportFormat::Svg => write_text(path, &chart()?.to_svg()?),
         }
     }
 }
@@ -123,6 +137,14 @@ pub fn write_text(path: &Path, text: &str) -> Result<(), OutputError> {
 pub fn check_output_path(path: &Path) -> Result<(), OutputError> {
     ReportFormat::of(path)?;
     check_writable(path)
+}
+
+/// As [`check_output_path`], of what has no chart.
+pub fn check_table_path(path: &Path) -> Result<(), OutputError> {
+    match ReportFormat::of(path)?.is_chart() {
+        true => Err(OutputError::NoChart { path: path.to_owned() }),
+        false => check_writable(path),
+    }
 }
 
 /// As [`check_output_path`], whatever the name.

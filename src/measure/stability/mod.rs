@@ -9,11 +9,13 @@ mod reported;
 mod scenes;
 mod sheet;
 mod solids;
+mod tables;
 mod trials;
 
 pub use judge::{distance, resized};
 pub use sheet::error_sheet;
-pub use trials::{Passed, Progress, Row, Summary, short, try_all};
+pub use tables::{summary, trials};
+pub use trials::{Progress, Row, try_all};
 
 use std::sync::{Arc, OnceLock};
 

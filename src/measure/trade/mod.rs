@@ -7,23 +7,23 @@
 
 mod chart;
 mod choice;
-mod csv;
 #[cfg(test)]
 mod example;
 mod figures;
 mod file;
-mod markdown;
 mod measuring;
 mod sweep;
+mod tables;
 mod truth;
 
 use serde::Serialize;
 
+pub use chart::chart;
 pub use choice::{Candidate, Question, contenders, front};
 pub use figures::{Answer, Figures, answers, figures};
-pub use markdown::rows;
 pub use measuring::{Step, measure};
 pub use sweep::{Axes, Planned, Sweep};
+pub use tables::{asked, settings};
 pub use truth::{Truth, TruthError, truth};
 
 use super::{Budget, Clock, ImageError, Machine, median, quartiles};

@@ -1,28 +1,26 @@
-//! Tables for people, with the answers in words.
+//! The tables for people, in Markdown and in a report, with the answers in words.
 
 use super::figures::{Figures, figures};
 use super::{Conditions, Counted, Point, Question, SceneTrade, Target, Trade};
 use crate::measure::Clock;
-use crate::measure::output::markdown::{figure, in_line};
+use crate::measure::output::{Entry, Table, Words, figure};
 use crate::settings::three_digits;
 
 /// Title, machine, what the columns mean, and a section a scene.
-pub fn of(trade: &Trade) -> String {
-    let mut lines = head(trade);
-    for scene in &trade.scenes {
-        lines.extend(of_scene(scene, &trade.conditions));
-    }
-    lines.join("\n") + "\n"
+pub fn blocks(trade: &Trade) -> Vec<String> {
+    let mut blocks = vec!["# The price of accuracy".to_owned(), legend(trade).join("\n")];
+    trade.scenes.iter().for_each(|scene| blocks.extend(of_scene(scene, &trade.conditions)));
+    blocks
 }
 
-fn head(trade: &Trade) -> Vec<String> {
+fn legend(trade: &Trade) -> Vec<String> {
     let Trade { machine, conditions, scenes } = trade;
     let truth = match conditions.target {
         Target::Point => "the reference at the middle of every pixel",
         Target::Area => "the reference's mean over 8x8 points of every pixel",
     };
     let counted = match conditions.counted {
-        Counted::AllPixels => "max abs",
+        Counted::AllPixels => "max error",
         Counted::OffDiscontinuities => "off edges",
     };
     let clock = match scenes.first().map(|scene| scene.clock) {
@@ -30,8 +28,6 @@ fn head(trade: &Trade) -> Vec<String> {
         Some(Clock::Gpu) | None => "GPU time",
     };
     let mut lines = vec![
-        "# The price of accuracy".to_owned(),
-        String::new(),
         format!("- device: {} ({})", machine.device, machine.driver),
         format!("- program: {}", machine.program),
         format!("- picture: {}x{} pixels; the truth is {truth}", conditions.width, conditions.height),
@@ -39,10 +35,10 @@ fn head(trade: &Trade) -> Vec<String> {
             "- ms: {clock} of a frame, the median ratio to the baseline's frame beside it times the baseline's median; in \
              brackets the quartiles. The first line is the baseline against itself"
         ),
-        "- max abs: largest error of a linear channel over all pixels; off edges: without pixels beside one whose ray \
-         goes another way; edges: those of them that are more than 1/510 off"
+        "- max error: largest error of a linear channel over all pixels; off edges: without pixels beside one whose ray \
+         goes another way; edges differing: those of them that are more than 1/510 off"
             .to_owned(),
-        "- bound: what is left out is proven to change no channel by more, rounding not in it; -: only measured, on this \
+        "- proven bound: what is left out is proven to change no channel by more, rounding not in it; –: only measured, on this \
          scene from this camera"
             .to_owned(),
         format!("- front: no other setting is as fast and as accurate (ms, {counted}) and better in one of the two"),
@@ -55,100 +51,97 @@ fn head(trade: &Trade) -> Vec<String> {
 
 fn of_scene(scene: &SceneTrade, conditions: &Conditions) -> Vec<String> {
     let figures = figures(scene, conditions);
-    let mut lines = vec![
-        String::new(),
-        format!("## {}: {} solids, {} generations", scene.scene, scene.solids, scene.max_depth),
-        String::new(),
-    ];
+    let mut blocks = vec![format!("## {}: {} solids, {} generations", scene.scene, scene.solids, scene.max_depth)];
     if !scene.complete {
-        lines.extend([format!("Not complete: {} settings are measured.", scene.points.len()), String::new()]);
+        blocks.push(format!("Not complete: {} settings are measured.", scene.points.len()));
     }
-    lines.extend(table(scene, &figures));
+    blocks.push(settings(scene, &figures).to_markdown());
     if !scene.left_out.is_empty() {
-        lines.extend([String::new(), "Not measured:".to_owned(), String::new()]);
-        lines.extend(scene.left_out.iter().map(|left_out| format!("- {}: {}", left_out.setting, left_out.reason)));
+        let left_out = scene.left_out.iter().map(|left_out| format!("- {}: {}", left_out.setting, left_out.reason));
+        blocks.extend(["Not measured:".to_owned(), left_out.collect::<Vec<_>>().join("\n")]);
     }
-    for &question in &conditions.questions {
-        lines.extend([String::new(), answer(scene, &figures, conditions, question)]);
-    }
-    lines
+    blocks.extend(conditions.questions.iter().map(|&question| answer(scene, &figures, conditions, question)));
+    blocks
 }
 
-fn table(scene: &SceneTrade, figures: &[Figures]) -> Vec<String> {
-    let header =
-        ["setting", "front", "ms", "of baseline", "max abs", "off edges", "edges", "RMSE", "PSNR", "FLIP", "bound"];
-    let header = header.map(str::to_owned);
-    let rows: Vec<Vec<String>> = [header].into_iter().chain(rows(scene, figures)).map(Vec::from).collect();
-    in_line(&rows)
-}
-
-/// What is told of every setting, cell by cell: name, a star on the front, ms with quartiles, parts of the baseline's
-/// time, largest error, that off edges, share of edge pixels that differ, RMSE, PSNR in dB, FLIP, bound. The baseline,
-/// then the others from the most accurate.
-pub fn rows(scene: &SceneTrade, figures: &[Figures]) -> Vec<[String; 11]> {
+/// The baseline, then the others from the most accurate.
+pub fn settings(scene: &SceneTrade, figures: &[Figures]) -> Table {
     let mut order: Vec<usize> = (0..scene.points.len()).collect();
     let key = |place: usize| figures[place].largest_error.unwrap_or(f64::INFINITY);
     order[1.min(scene.points.len())..].sort_by(|&a, &b| key(a).total_cmp(&key(b)));
-    order.into_iter().map(|place| row(&scene.points[place], &figures[place])).collect()
+    let head = vec![
+        Words::both("setting", "настройка"),
+        Words::both("front", "фронт"),
+        Words::both("ms [quartiles]", "мс [квартили]"),
+        Words::both("of baseline", "от базовой"),
+        Words::both("max error", "наиб. ошибка"),
+        Words::both("off edges", "вне границ"),
+        Words::both("edges differing", "отличия на границах"),
+        Words::both("RMSE", "СКО"),
+        Words::both("PSNR, dB", "PSNR, дБ"),
+        "FLIP".into(),
+        Words::both("proven bound", "доказанная граница"),
+    ];
+    Table { head, rows: order.into_iter().map(|place| row(&scene.points[place], &figures[place])).collect() }
 }
 
-fn row(point: &Point, figures: &Figures) -> [String; 11] {
-    let or_dash = |text: Option<String>| text.unwrap_or_else(|| "-".to_owned());
-    let digits = |value: Option<f64>| or_dash(value.map(three_digits));
+fn row(point: &Point, figures: &Figures) -> Vec<Entry> {
+    let digits = |value: Option<f64>| Entry::maybe(value.map(three_digits));
     let error = &point.error;
     let time = figures.time_ns.zip(figures.quartiles_ns).map(|(time_ns, quartiles_ns)| {
         let [first, third] = quartiles_ns.map(ms);
         format!("{} [{first}, {third}]", ms(time_ns))
     });
-    [
-        figures.name.clone(),
-        if figures.is_on_front { "*" } else { "" }.to_owned(),
-        or_dash(time),
-        or_dash(figures.ratio.map(|ratio| format!("{ratio:.3}"))),
+    vec![
+        Entry::of(&figures.name),
+        Entry::of(if figures.is_on_front { "★" } else { "" }),
+        Entry::maybe(time),
+        Entry::maybe(figures.ratio.map(|ratio| format!("{ratio:.3}"))),
         match error.image.non_finite_pixels {
             0 => digits(error.image.max_abs),
-            pixels => format!("NaN: {pixels} px"),
+            pixels => Entry::of(format!("NaN: {pixels} px")),
         },
         digits(error.max_abs_off_discontinuities),
-        percent(error.differing_share()),
+        Entry::of(percent(error.differing_share())),
         digits(error.image.rmse),
-        or_dash(error.image.psnr_db.map(|db| format!("{db:.1}"))),
-        three_digits(error.image.flip_mean),
+        Entry::maybe(error.image.psnr_db.map(|db| format!("{db:.1}"))),
+        Entry::of(three_digits(error.image.flip_mean)),
         digits(point.bound),
     ]
 }
 
-fn answer(scene: &SceneTrade, figures: &[Figures], conditions: &Conditions, question: Question) -> String {
-    let (asked, without) = match question {
+/// What is asked for, to be followed by the answer.
+pub fn asked(question: Question) -> Words {
+    match question {
         Question::Error(error) => {
-            (format!("The fastest within an error of {}", three_digits(error)), "no setting of the sweep keeps it")
+            let error = three_digits(error);
+            Words::both(
+                format!("The fastest within an error of {error}"),
+                format!("Самая быстрая с ошибкой до {error}"),
+            )
         }
-        Question::Fps(fps) => (
-            format!("The most accurate at {} frames a second", three_digits(fps)),
-            "no setting of the sweep reaches it",
-        ),
-    };
-    match scene.answer(question, conditions.counted) {
-        Some(place) => {
-            format!("{asked}: **{}**, {}.", figures[place].name, told(&scene.points[place], &figures[place]))
-        }
-        None => {
-            let nearest = match question {
-                Question::Error(_) => "; the most accurate one",
-                Question::Fps(_) => "; the fastest one",
-            };
-            let key = |place: usize| match question {
-                Question::Error(_) => figures[place].largest_error,
-                Question::Fps(_) => figures[place].time_ns,
-            };
-            let places = (0..figures.len()).filter(|&place| key(place).is_some());
-            let best = places.min_by(|&a, &b| key(a).partial_cmp(&key(b)).unwrap_or(std::cmp::Ordering::Equal));
-            let best = best.map(|place| {
-                format!("{nearest}, {}: {}", figures[place].name, told(&scene.points[place], &figures[place]))
-            });
-            format!("{asked}: {without}{}.", best.unwrap_or_default())
+        Question::Fps(fps) => {
+            let fps = three_digits(fps);
+            let russian = format!("Самая точная при {fps} кадрах в секунду");
+            Words::both(format!("The most accurate at {fps} frames a second"), russian)
         }
     }
+}
+
+fn answer(scene: &SceneTrade, figures: &[Figures], conditions: &Conditions, question: Question) -> String {
+    let asked = asked(question).english;
+    let told = |place: usize| told(&scene.points[place], &figures[place]);
+    if let Some(place) = scene.answer(question, conditions.counted) {
+        return format!("{asked}: **{}**, {}.", figures[place].name, told(place));
+    }
+    let (without, nearest, key): (_, _, fn(&Figures) -> Option<f64>) = match question {
+        Question::Error(_) => ("keeps it", "the most accurate one", |figures| figures.largest_error),
+        Question::Fps(_) => ("reaches it", "the fastest one", |figures| figures.time_ns),
+    };
+    let known = figures.iter().enumerate().filter_map(|(place, figures)| Some((place, key(figures)?)));
+    let best = known.min_by(|(_, a), (_, b)| a.total_cmp(b));
+    let best = best.map(|(place, _)| format!("; {nearest}, {}: {}", figures[place].name, told(place)));
+    format!("{asked}: no setting of the sweep {without}{}.", best.unwrap_or_default())
 }
 
 /// Time, error and what of it is proven.
@@ -181,12 +174,13 @@ fn percent(share: f64) -> String {
 mod tests {
     use super::super::example::example;
     use super::*;
+    use crate::measure::output::Document;
 
     #[test]
     fn the_table_the_truth_and_the_answers_are_told() {
         let mut trade = example();
         trade.conditions.questions = vec![Question::Error(0.01), Question::Fps(30.0), Question::Error(1e-9)];
-        let text = of(&trade);
+        let text = trade.to_markdown();
         for part in [
             "- device: a device (driver 1)",
             "160x70 pixels; the truth is the reference at the middle of every pixel",
@@ -205,7 +199,7 @@ mod tests {
         let table: Vec<&str> = text.lines().filter(|line| line.starts_with('|')).collect();
         assert_eq!(table.len(), 2 + 5);
         assert!(table[2].starts_with("| whitted f32 "), "the baseline is the first");
-        assert!(table[3].starts_with("| whitted f64 ") && table[3].contains(" * "), "then the most accurate");
+        assert!(table[3].starts_with("| whitted f64 ") && table[3].contains(" ★ "), "then the most accurate");
     }
 
     #[test]
@@ -214,7 +208,7 @@ mod tests {
         trade.scenes[0].complete = false;
         trade.conditions.validation = true;
         trade.conditions.target = Target::Area;
-        let text = of(&trade);
+        let text = trade.to_markdown();
         for part in ["Not complete: 5 settings are measured.", "- under validation", "8x8 points"] {
             assert!(text.contains(part), "{part:?} is not in:\n{text}");
         }
