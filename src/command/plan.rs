@@ -9,7 +9,7 @@ use super::{DeviceArgs, print_json, print_line, scene_named};
 use crate::algorithm::{Algorithm, Description, Precision};
 use crate::gpu::{self, DeviceDescription, GpuError};
 use crate::plan::{Approximations, Bounds, Limits, Line, Plan};
-use crate::settings::RenderSettings;
+use crate::settings::{RenderSettings, Shading};
 use crate::tracer::limits_of;
 
 /// Tell what will run for a scene, what is left out and why, and what that saves
@@ -29,6 +29,9 @@ pub struct PlanArgs {
     /// Generations of a ray, in place of the scene's
     #[arg(long, value_name = "N", value_parser = parse_depth())]
     pub max_depth: Option<u32>,
+    /// How much of the light model is drawn
+    #[arg(long, value_enum, default_value_t)]
+    pub shading: Shading,
     /// Pixels, each side 1 to 16384
     #[arg(long, value_name = "WxH", default_value = "1621x701", value_parser = parse_size)]
     pub size: (u32, u32),
@@ -71,8 +74,10 @@ pub fn run(args: &PlanArgs) -> Result<()> {
         precision: args.precision,
         max_depth: args.max_depth,
         error: args.error,
+        shading: args.shading,
         ..RenderSettings::default()
     };
+    let scene = args.shading.applied(&scene);
     let plan = Plan::for_scene(&scene, &settings, [width, height], &limits)?.with_f32_tried(&scene);
     let device = device.as_ref().map(|device| device.name.as_str());
     if args.json {

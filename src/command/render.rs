@@ -20,7 +20,7 @@ use crate::plan::Plan;
 use crate::reference::{self, RenderError};
 use crate::scene::Scene;
 use crate::settings::sampling::Sampling;
-use crate::settings::{Contradiction, RenderSettings};
+use crate::settings::{Contradiction, RenderSettings, Shading};
 use crate::tracer::{Settings, Tracer, TracerError, limits_of};
 use crate::validation::Remarked;
 
@@ -56,8 +56,11 @@ pub struct RenderArgs {
     /// Size of the picture that whitted traces against that of OUT, to which it is brought bilinearly: 1/4 to 1
     #[arg(long, value_name = "S", default_value = "1", value_parser = parse_scale)]
     pub scale: f64,
+    /// How much of the light model is drawn, by whitted, plain or reference
+    #[arg(long, value_enum, default_value_t)]
+    pub shading: Shading,
     /// Draw as a file of `zerkalo trade --save-settings` says
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["algorithm", "precision", "max_depth", "error", "samples", "scale"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["algorithm", "precision", "max_depth", "error", "samples", "scale", "shading"])]
     pub settings: Option<PathBuf>,
     #[command(flatten)]
     pub device: DeviceArgs,
@@ -124,8 +127,8 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     let scene =
         if is_from_stream { args.streams.format.unwrap_or_default().read_scene()? } else { scene_named(&args.scene)? };
     let rendered = match setting(args)? {
-        Some(setting) => on_device(args, &scene, &setting)?,
-        None => on_cpu(args, scene)?,
+        Some(setting) => on_device(args, &setting.shading.applied(&scene), &setting)?,
+        None => on_cpu(args, args.shading.applied(&scene).into_owned())?,
     };
     let told = told(args, &rendered)?;
     if is_into_stream {
@@ -151,6 +154,7 @@ fn setting(args: &RenderArgs) -> Result<Option<RenderSettings>> {
         max_depth: args.max_depth,
         samples: args.samples,
         scale: args.scale,
+        shading: args.shading,
         ..RenderSettings::default()
     };
     setting.check().map_err(|Contradiction { field, what }| {

@@ -21,7 +21,7 @@ use crate::measure::trade::{
 use crate::measure::{Budget, Machine};
 use crate::reference::RenderError;
 use crate::scene::Scene;
-use crate::settings::{RenderSettings, SettingsError, three_digits};
+use crate::settings::{RenderSettings, SettingsError, Shading, three_digits};
 use crate::tracer::{TracerError, limits_of};
 
 /// Which picture is the true one.
@@ -51,6 +51,9 @@ pub struct TradeArgs {
     /// Write the answer for one scene into a file that `render` and `view` take by --settings
     #[arg(long, value_name = "FILE")]
     pub save_settings: Option<PathBuf>,
+    /// How much of the light model is drawn, by all algorithms but the course's
+    #[arg(long, value_enum, default_value_t)]
+    pub shading: Shading,
     /// The true picture
     #[arg(long, value_enum, default_value = "point")]
     pub target: Target,
@@ -96,8 +99,11 @@ pub fn run(args: &TradeArgs) -> Result<()> {
     if args.save_settings.is_some() && (questions(args).len() != 1 || args.scenes.len() != 1) {
         return Err(Contradictory("--save-settings is for one scene and one of --error and --fps").into());
     }
-    let scenes: Vec<(&str, Scene)> =
-        args.scenes.iter().map(|name| Ok((name.as_str(), scene_named(name)?))).collect::<Result<_>>()?;
+    let scenes: Vec<(&str, Scene)> = args
+        .scenes
+        .iter()
+        .map(|name| Ok((name.as_str(), args.shading.applied(&scene_named(name)?).into_owned())))
+        .collect::<Result<_>>()?;
     let outputs = report_files(&args.output, "trade")?;
     args.save_settings.iter().try_for_each(|path| RenderSettings::check_output_path(path))?;
 
@@ -150,7 +156,8 @@ pub(super) fn axes(args: &TradeArgs) -> Axes {
         Target::Point => trade::Target::Point,
         Target::Area => trade::Target::Area,
     };
-    let full = Axes::full(target, &args.error.map_or(Vec::new(), |error| vec![error]));
+    let full =
+        Axes { shading: args.shading, ..Axes::full(target, &args.error.map_or(Vec::new(), |error| vec![error])) };
     if args.algorithm.is_empty() { full } else { Axes { algorithms: args.algorithm.clone(), ..full } }
 }
 

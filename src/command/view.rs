@@ -8,7 +8,7 @@ use clap::Args;
 use super::interrupt::Listener;
 use super::{DeviceArgs, ValidationArgs, refuse_messages, scene_named};
 use crate::scene::gallery;
-use crate::settings::RenderSettings;
+use crate::settings::{RenderSettings, Shading};
 use crate::tracer::TracerError;
 use crate::viewer::action::Kernel;
 use crate::viewer::{self, Document, Options};
@@ -29,6 +29,9 @@ pub struct ViewArgs {
     /// Draw as a file of `zerkalo trade --save-settings` says; the panel offers the kernels, too
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
+    /// How much of the light model is drawn at first; the panel offers the others
+    #[arg(long, value_enum, default_value_t, conflicts_with = "settings")]
+    pub shading: Shading,
     #[command(flatten)]
     pub device: DeviceArgs,
     #[command(flatten)]
@@ -63,6 +66,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         watched_sources: args.watch.clone(),
         kernel: (args.scene == COURSE_START).then_some(Kernel::Course),
         setting,
+        shading: args.shading,
         lose_device_after: args.lose_device_after,
         config_folder: viewer::config_folder(),
     };

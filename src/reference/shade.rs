@@ -56,7 +56,7 @@ impl<'a> World<'a> {
         let start = Leg { ray, origin_surface: OriginSurface::Free, weight: 1.0, medium, generation: 0 };
         let mut color = DVec3::ZERO;
         // The last in is the next out.
-        let mut legs = vec![start];
+        let mut legs = if self.scene.max_depth > 0 { vec![start] } else { Vec::new() };
         let mut known = Some(nearest);
         while let Some(leg) = legs.pop() {
             let hit = known.take().unwrap_or_else(|| self.solids.nearest(&leg.ray, leg.origin_surface));

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use thiserror::Error;
 use toml::Spanned;
 
-use super::RenderSettings;
+use super::{RenderSettings, Shading};
 use crate::algorithm::{Algorithm, Precision};
 use crate::whole_file::WholeFile;
 
@@ -65,6 +65,7 @@ struct Fields {
     boxes: Option<Spanned<bool>>,
     samples: Option<Spanned<u32>>,
     scale: Option<Spanned<f64>>,
+    shading: Option<Spanned<Shading>>,
 }
 
 /// Largest file, bytes: a setting takes a tenth of one thousand.
@@ -91,7 +92,7 @@ impl RenderSettings {
             let offset = error.span().map_or(0, |span| span.start);
             (line(offset), in_one_line(source, &error, offset))
         })?;
-        let Fields { algorithm, precision, error, max_depth, boxes, samples, scale } = fields;
+        let Fields { algorithm, precision, error, max_depth, boxes, samples, scale, shading } = fields;
         let places = [
             ("precision", precision.as_ref().map(Spanned::span)),
             ("error", error.as_ref().map(Spanned::span)),
@@ -99,6 +100,7 @@ impl RenderSettings {
             ("boxes", boxes.as_ref().map(Spanned::span)),
             ("samples", samples.as_ref().map(Spanned::span)),
             ("scale", scale.as_ref().map(Spanned::span)),
+            ("shading", shading.as_ref().map(Spanned::span)),
         ];
         let default = Self::default();
         let on_cpu = algorithm.as_ref().filter(|algorithm| !algorithm.get_ref().description().is_on_device());
@@ -117,6 +119,7 @@ impl RenderSettings {
             boxes: boxes.map_or(default.boxes, Spanned::into_inner),
             samples: samples.map_or(default.samples, Spanned::into_inner),
             scale: scale.map_or(default.scale, Spanned::into_inner),
+            shading: shading.map_or(default.shading, Spanned::into_inner),
         };
         setting.check().map_err(|contradiction| {
             let place = places.into_iter().find(|(field, _)| *field == contradiction.field);
@@ -171,6 +174,7 @@ mod tests {
             boxes: false,
             samples: 4,
             scale: 0.5,
+            shading: Shading::Phong,
         };
         for setting in [
             cut,

@@ -2,6 +2,7 @@
 
 mod file;
 pub mod sampling;
+mod shading;
 
 use std::fmt;
 
@@ -9,6 +10,7 @@ use serde::Serialize;
 
 pub use file::SettingsError;
 use sampling::Sampling;
+pub use shading::Shading;
 
 use crate::algorithm::{Algorithm, Description, Precision};
 use crate::scene::DEPTH_LIMIT;
@@ -31,6 +33,8 @@ pub struct RenderSettings {
     pub samples: u32,
     /// Size of the traced picture against the one asked for.
     pub scale: f64,
+    /// Which part of the light model; plans and tracers are given the scene that it is [applied](Shading::applied) to.
+    pub shading: Shading,
 }
 
 impl Default for RenderSettings {
@@ -44,6 +48,7 @@ impl Default for RenderSettings {
             boxes: true,
             samples: 1,
             scale: 1.0,
+            shading: Shading::Whitted,
         }
     }
 }
@@ -67,7 +72,7 @@ impl RenderSettings {
     /// # Errors
     /// What no kernel can do.
     pub fn check(&self) -> Result<(), Contradiction> {
-        let &Self { algorithm, precision, error, max_depth, boxes, samples, scale } = self;
+        let &Self { algorithm, precision, error, max_depth, boxes, samples, scale, shading } = self;
         let &Description { name, precisions, .. } = algorithm.description();
         let refuse = |field, what: String| Err(Contradiction { field, what });
         if !(error.is_finite() && error >= 0.0) {
@@ -92,6 +97,10 @@ impl RenderSettings {
         if !boxes && !algorithm.description().has_hierarchy {
             return refuse("boxes", format!("the {name} algorithm has no boxes to go without"));
         }
+        if shading != Shading::Whitted && !algorithm.description().is_of_accurate_model {
+            let what = format!("shading = {}: the {name} algorithm has a light model of its own", shading.name());
+            return refuse("shading", what);
+        }
         // One after the other, so that the field at fault is known.
         let plain = Sampling::PLAIN;
         for (field, sampling) in [("samples", Sampling { samples, ..plain }), ("scale", Sampling { scale, ..plain })] {
@@ -110,10 +119,13 @@ impl RenderSettings {
 impl fmt::Display for RenderSettings {
     /// What differs from an exact picture by default, in a few words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let &Self { algorithm, precision, error, max_depth, boxes, samples, scale } = self;
+        let &Self { algorithm, precision, error, max_depth, boxes, samples, scale, shading } = self;
         write!(f, "{}", algorithm.name())?;
         if let Some(precision) = precision.filter(|_| algorithm.description().has_precisions()) {
             write!(f, " {}", precision.name())?;
+        }
+        if shading != Shading::Whitted {
+            write!(f, ", {} shading", shading.name())?;
         }
         if error > 0.0 {
             write!(f, ", error {}", three_digits(error))?;

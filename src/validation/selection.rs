@@ -140,7 +140,7 @@ mod tests {
     #[test]
     fn what_is_instrumented_is_little_and_has_each_access() {
         let device = device(true, true);
-        for (scope, a_shader) in [(Scope::Whole, 8), (Scope::EverySwitch, 3)] {
+        for (scope, a_shader) in [(Scope::Whole, 8), (Scope::EverySwitch, 5)] {
             let all = runs_on(&device, scope);
             let all: Vec<_> = match scope {
                 Scope::Whole => all,

@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use super::preferences::{Preferences, UsualKernel};
 use crate::scene::{Light, Material, Projection, Solid, SolidKind};
-use crate::settings::RenderSettings;
 use crate::settings::sampling::Sampling;
+use crate::settings::{RenderSettings, Shading};
 use crate::tracer::Precision;
 
 /// One wish. Edits go through the undo history; a wish that cannot be granted changes nothing and shows a message.
@@ -95,6 +95,8 @@ pub enum Action {
     SetKernel(Kernel),
     /// Of the accurate kernel.
     SetSampling(Sampling),
+    /// How much of the light model is drawn, but by the course's kernel and a settings' file.
+    SetShading(Shading),
     /// Whether pictures are traced anew though nothing changes.
     SetContinuous(bool),
     /// Whether the sheet of keys is to be seen.

@@ -76,7 +76,7 @@ pub fn run(document: Document, options: Options, on_start: impl FnOnce(Stopper))
     let remembered = folder.map(|folder| Preferences::load(&preferences::file_in(folder)));
     let (recovery, recovered) = Recovery::new(folder);
     let state = State::new(document, remembered.unwrap_or_default(), recovered);
-    let state = state.drawn_by(options.kernel, options.setting);
+    let state = state.drawn_by(options.kernel, options.setting).shaded_by(options.shading);
     let proxy = event_loop.create_proxy();
     on_start(Stopper(proxy.clone()));
     let messages = Messages::default();

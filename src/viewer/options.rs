@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::action::Kernel;
 use crate::gpu::Validation;
-use crate::settings::RenderSettings;
+use crate::settings::{RenderSettings, Shading};
 
 /// How to open the window.
 #[derive(Debug, Clone)]
@@ -21,6 +21,8 @@ pub struct Options {
     pub kernel: Option<Kernel>,
     /// How to draw, before that, and what the panel offers besides the kernels.
     pub setting: Option<RenderSettings>,
+    /// How much of the light model is drawn at first.
+    pub shading: Shading,
     /// Acts as if the device was lost after so many frames.
     pub lose_device_after: Option<u64>,
     /// Where preferences and unsaved work are kept.

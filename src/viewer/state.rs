@@ -10,8 +10,8 @@ use super::edits::Refusal;
 use super::preferences::Preferences;
 use crate::frame::FileFormat;
 use crate::scene::{Scene, gallery};
-use crate::settings::RenderSettings;
 use crate::settings::sampling::Sampling;
+use crate::settings::{RenderSettings, Shading};
 
 /// All of the window but its picture.
 #[derive(Debug)]
@@ -24,6 +24,8 @@ pub struct State {
     pub kernel: Kernel,
     /// Of the accurate kernels: size of the traced picture against the one shown.
     scale: f64,
+    /// Of the accurate model; see [`State::shading`].
+    shading: Shading,
     /// Of the settings' file, where there is one.
     pub setting: Option<RenderSettings>,
     /// Traces anew though nothing changes, as measuring needs.
@@ -129,6 +131,7 @@ impl State {
             preferences,
             scale: Sampling::PLAIN.scale,
             setting: None,
+            shading: Shading::Whitted,
             is_continuous: false,
             is_help_shown: false,
             dialog: recovered.as_ref().map(|_| Dialog::Recover),
@@ -141,6 +144,20 @@ impl State {
     /// Drawn at first as a settings' file says, or else by this kernel, and not by the usual one, which stays that.
     pub fn drawn_by(self, kernel: Option<Kernel>, setting: Option<RenderSettings>) -> Self {
         Self { kernel: setting.map(Kernel::BySetting).or(kernel).unwrap_or(self.kernel), setting, ..self }
+    }
+
+    /// With this light model at first.
+    pub fn shaded_by(self, shading: Shading) -> Self {
+        Self { shading, ..self }
+    }
+
+    /// How much of the light model is drawn of it.
+    pub fn shading(&self) -> Shading {
+        match self.kernel {
+            Kernel::Accurate(_) | Kernel::Reference => self.shading,
+            Kernel::BySetting(RenderSettings { shading, .. }) => shading,
+            Kernel::Course => Shading::Whitted,
+        }
     }
 
     /// How finely the accurate kernels trace once nothing changes.
@@ -190,10 +207,12 @@ impl State {
     fn takes(&self, action: &Action) -> bool {
         use Action::{
             AnswerRecover, AnswerUnsaved, CloseDialog, OpenFile, Quit, SaveTo, ScreenshotTo, SetContinuous, SetKernel,
-            SetPreferences, SetSampling, ShowHelp,
+            SetPreferences, SetSampling, SetShading, ShowHelp,
         };
-        let is_window_setting =
-            matches!(action, SetPreferences(_) | SetKernel(_) | SetSampling(_) | SetContinuous(_) | ShowHelp(_));
+        let is_window_setting = matches!(
+            action,
+            SetPreferences(_) | SetKernel(_) | SetSampling(_) | SetShading(_) | SetContinuous(_) | ShowHelp(_)
+        );
         let is_answer = match &self.dialog {
             None => true,
             Some(Dialog::Message(_)) => matches!(action, CloseDialog | Quit),
@@ -256,6 +275,7 @@ impl State {
 
             Action::SetPreferences(preferences) => self.preferences = preferences.clamped(),
             Action::SetKernel(kernel) => self.set_kernel(kernel),
+            Action::SetShading(shading) => self.shading = shading,
             Action::SetSampling(Sampling { samples, scale }) => {
                 (self.preferences.samples, self.scale) = (samples, scale);
             }

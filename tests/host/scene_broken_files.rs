@@ -38,7 +38,7 @@ fn every_kind_of_broken_toml_is_refused_by_name_and_line() {
         ("primitives = []\n[[primitives]]\nkind = 'box'", &["line 2: ", "duplicate key", "primitives"]),
         ("primitives = [{ kind = 'box', kind = 'box' }]", &["line 1: ", "duplicate key", "kind"]),
         // Unknown fields at each level
-        ("max_deth = 3", &["line 1: unknown field max_deth; allowed: camera, background, max_depth"]),
+        ("max_deth = 3", &["line 1: unknown field max_deth; allowed: camera, background, ambient_light, max_depth"]),
         ("[camera]\nfov = 3", &["line 2: camera: unknown field fov; allowed: position, direction, up"]),
         (
             "[[lights]]\n[[lights]]\ncolor = [1, 1, 1]",
@@ -167,6 +167,8 @@ fn every_rule_of_validation_names_field_value_and_line() {
         ("camera.vertical_fov_degrees = 0", "camera: vertical_fov_degrees = 0: must be between 0 and 180"),
         ("camera.vertical_fov_degrees = 180", "camera: vertical_fov_degrees = 180: must be between 0 and 180"),
         ("lights = [{ intensity = [1, 1, -1e-300] }]", "light 1: intensity = [1, 1, -1e-300]: must be 0 or greater"),
+        ("lights = [{ distance_constant = 0 }]", "light 1: distance_constant = 0: must be greater than 0"),
+        ("ambient_light = [1, -1, 1]", "ambient_light = [1, -1, 1]: must be 0 or greater"),
         ("lights = [{ position = [1, 1, 4e38] }]", "light 1: position = [1, 1, 4e38]: must be a finite number"),
         ("sphere.radius = 0", "radius = 0: must be greater than 0"),
         ("sphere.radius = -0.0", "radius = -0.0: must be greater than 0"),
@@ -187,6 +189,11 @@ fn every_rule_of_validation_names_field_value_and_line() {
         ("box.material.ambient = 1.1", "material.ambient = 1.1: must be from 0 to 1"),
         ("box.material.diffuse = -0.1", "material.diffuse = -0.1: must be from 0 to 1"),
         ("box.material.specular = 2", "material.specular = 2: must be from 0 to 1"),
+        ("box.material.reflection = -0.1", "material.reflection = -0.1: must be from 0 to 1"),
+        ("box.material.shininess = 0.5", "material.shininess = 0.5: must be from 1 to 1024"),
+        ("box.material.shininess = 1025", "material.shininess = 1025: must be from 1 to 1024"),
+        ("box.material.transmission = 1.5", "material.transmission = 1.5: must be from 0 to 1"),
+        ("box.material.refractive_index = 0", "material.refractive_index = 0: must be from 0.01 to 100"),
     ];
     for (assignment, message) in broken {
         let kind = SolidKind::ALL.into_iter().find(|kind| assignment.starts_with(kind.name()));

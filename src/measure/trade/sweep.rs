@@ -4,7 +4,7 @@ use super::{LeftOut, Target};
 use crate::algorithm::{ALGORITHMS, Algorithm, Description, Precision};
 use crate::plan::{Limits, Plan, PlanError};
 use crate::scene::Scene;
-use crate::settings::RenderSettings;
+use crate::settings::{RenderSettings, Shading};
 use crate::tracer::Settings;
 
 /// What is varied.
@@ -20,6 +20,8 @@ pub struct Axes {
     /// Of the traced picture, besides 1.
     pub scales: Vec<f64>,
     pub target: Target,
+    /// Of all settings.
+    pub shading: Shading,
 }
 
 impl Axes {
@@ -34,6 +36,7 @@ impl Axes {
         Self {
             algorithms: Algorithm::on_device().collect(),
             errors,
+            shading: Shading::Whitted,
             generations: vec![1, 2, 3, 4, 6, 8, 12, 16, 24, 32],
             samples: match target {
                 // More than the one in the middle are farther from what is there.
@@ -75,6 +78,7 @@ const BASELINE: RenderSettings = RenderSettings {
     boxes: true,
     samples: 1,
     scale: 1.0,
+    shading: Shading::Whitted,
 };
 
 impl Sweep {
@@ -91,7 +95,11 @@ impl Sweep {
             let bound = (is_of_model && is_of_points).then(|| plan.bounds.total());
             Ok::<_, PlanError>(Planned { setting, settings: Settings::planned(&plan), bound })
         };
-        let mut sweep = Self { baseline: plan(BASELINE)?, others: Vec::new(), left_out: Vec::new() };
+        let mut sweep = Self {
+            baseline: plan(RenderSettings { shading: axes.shading, ..BASELINE })?,
+            others: Vec::new(),
+            left_out: Vec::new(),
+        };
         for setting in candidates(scene, axes) {
             match plan(setting) {
                 Ok(planned) if sweep.planned().any(|earlier| earlier.settings == planned.settings) => {}
@@ -116,7 +124,12 @@ fn candidates(scene: &Scene, axes: &Axes) -> Vec<RenderSettings> {
         ALGORITHMS.iter().filter(|row| row.is_on_device() && axes.algorithms.contains(&row.algorithm)).collect();
     rows.sort_by_key(|row| !row.is_accurate);
     let (approximating, others): (Vec<_>, Vec<_>) = rows.into_iter().partition(|row| row.approximates);
-    let of = |row: &Description, precision| RenderSettings { algorithm: row.algorithm, precision, ..BASELINE };
+    let of = |row: &Description, precision| RenderSettings {
+        algorithm: row.algorithm,
+        precision,
+        shading: axes.shading,
+        ..BASELINE
+    };
     let in_each =
         |row: &&Description| row.precisions.iter().map(|&precision| of(row, Some(precision))).collect::<Vec<_>>();
     let bases: Vec<_> = approximating.iter().flat_map(in_each).collect();

@@ -291,12 +291,13 @@ mod tests {
     use super::*;
     use crate::scene::gallery;
 
-    /// Whether it is mild or not.
+    /// Whether it is mild or not; but for those that let light through, which are not tried.
     #[test]
     fn every_scene_of_the_gallery_is_right_in_f32() {
         for entry in gallery::entries() {
             let scene = gallery::scene(&entry.name).unwrap();
-            if !scene.primitives.is_empty() {
+            let lets_light_through = scene.primitives.iter().any(|primitive| primitive.material.transmission > 0.0);
+            if !scene.primitives.is_empty() && !lets_light_through {
                 let lengths = Lengths::of(&scene);
                 let rounding = try_pixels(&lengths, scene.max_depth, [1621, 701], MOST_TRIED, Doubt::Lengths);
                 assert!(matches!(rounding, Rounding::Harmless { .. }), "{}: {rounding:?}", entry.name);

@@ -93,8 +93,8 @@ fn least_version(scene: &Scene) -> u32 {
             refractive_index,
         } = *material;
         reflection.is_none()
-            && (shininess, transmission, refractive_index)
-                == (usual.shininess, usual.transmission, usual.refractive_index)
+            && [shininess, transmission, refractive_index].map(f64::to_bits)
+                == [usual.shininess, usual.transmission, usual.refractive_index].map(f64::to_bits)
     };
     let has_constants = scene.lights.iter().any(|light| light.distance_constant.is_some());
     if scene.ambient_light != DVec3::ONE || has_constants || !scene.primitives.iter().all(is_of_course) {

@@ -77,9 +77,9 @@ fn material_fields(material: &Material) -> Vec<Field> {
         ("transmission", transmission, default.transmission),
         ("refractive_index", refractive_index, default.refractive_index),
     ];
-    fields.extend(
-        others.into_iter().filter(|(_, value, usual)| value != usual).map(|(key, value, _)| (key, number(value))),
-    );
+    // By their bits: −0 is not 0.
+    let others = others.into_iter().filter(|(_, value, usual)| value.to_bits() != usual.to_bits());
+    fields.extend(others.map(|(key, value, _)| (key, number(value))));
     fields
 }
 

@@ -1,4 +1,4 @@
-//! Ready scenes: the program's own showcase, the figures of the course work and the grids of its table 4.1;
+//! Ready scenes: the program's own showcase and glass, the figures of the course work and the grids of its table 4.1;
 //! and families of scenes that have any number of solids.
 //!
 //! All but the families are made here and written to `scenes/`, so that they can be drawn without the files and read
@@ -6,6 +6,7 @@
 
 mod families;
 mod figures;
+mod glass;
 mod showcase;
 
 use std::path::Path;
@@ -75,8 +76,15 @@ fn maker(name: &str) -> Option<Maker> {
 }
 
 fn makers() -> Vec<(Entry, Maker)> {
-    let single: [(&str, MakeScene, &str, &str); 10] = [
+    let single: [(&str, MakeScene, &str, &str); 12] = [
         ("showcase", showcase::scene, "the four solids among mirrors", "четыре тела среди зеркал"),
+        (
+            "glass",
+            glass::scene,
+            "four solids of glass before coloured panes",
+            "четыре стеклянных тела перед цветными плитами",
+        ),
+        ("fading", glass::fading, "equation 1.16: a lamp that fades", "уравнение 1.16: ослабевающий источник"),
         ("start", figures::start, "the course program as it starts", "начальное состояние программы"),
         ("sphere", figures::sphere, "a sphere", "сфера"),
         ("box", figures::rotated_box, "a turned cube", "повёрнутый куб"),

@@ -4,6 +4,7 @@ use egui::Ui;
 
 use super::fields::{RGB, Scale, check, choice, group, number, number_row, vector};
 use crate::scene::{DEPTH_LIMIT, Projection};
+use crate::settings::Shading;
 use crate::settings::sampling::{MAX_SAMPLES, MIN_SCALE, Sampling};
 use crate::tracer::Precision;
 use crate::viewer::action::{Action, Kernel};
@@ -43,6 +44,8 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>
         }
         show_flight(ui, words, &state.preferences, actions);
         show_kernel(ui, words, state, actions);
+        let has_shading = matches!(state.kernel, Kernel::Accurate(_) | Kernel::Reference);
+        ui.add_enabled_ui(has_shading, |ui| show_shading(ui, words, state.shading(), actions));
         let has_sampling = matches!(state.kernel, Kernel::Accurate(_));
         ui.add_enabled_ui(has_sampling, |ui| show_sampling(ui, words, state.accurate_sampling(), actions));
     });
@@ -84,6 +87,23 @@ fn show_kernel(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Acti
             let kernel = Kernel::BySetting(setting);
             if choice(ui, state.kernel == kernel, groups.kernel_by_setting, &setting.to_string()) {
                 actions.push(Action::SetKernel(kernel));
+            }
+        }
+    });
+}
+
+fn show_shading(ui: &mut Ui, words: &Words, now: Shading, actions: &mut Vec<Action>) {
+    let groups = &words.groups;
+    let choices = [
+        (Shading::Lambert, groups.shading_lambert),
+        (Shading::Phong, groups.shading_phong),
+        (Shading::Whitted, groups.shading_whitted),
+    ];
+    ui.label(groups.shading);
+    ui.horizontal_wrapped(|ui| {
+        for (shading, label) in choices {
+            if choice(ui, now == shading, label, "") {
+                actions.push(Action::SetShading(shading));
             }
         }
     });

@@ -65,7 +65,7 @@ impl Session {
     }
 
     fn ask_kernel(&mut self, limits: &Limits, size: [u32; 2]) -> Result<(), TracerError> {
-        let scene = self.state.document.scene();
+        let scene = &*self.state.shading().applied(self.state.document.scene());
         let chosen = self.chosen.as_ref().map(|chosen| chosen.precision);
         let exact = |kernel| Settings { kernel, ..Settings::new(size[0], size[1]) };
         let settings = match self.state.kernel {
@@ -96,7 +96,8 @@ impl Session {
 
     fn ask_for_reference(&mut self) -> Result<(), TracerError> {
         let Some(screen) = &mut self.screen else { return Ok(()) };
-        let (scene, size) = (self.state.document.scene(), screen.canvas.size());
+        let scene = &*self.state.shading().applied(self.state.document.scene());
+        let size = screen.canvas.size();
         let Reference { worker, shown, failure } = &mut self.reference;
         match worker.as_ref().filter(|worker| worker.size == size).and_then(ReferenceWorker::take) {
             Some(Ok(frame)) => {

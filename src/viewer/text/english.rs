@@ -83,6 +83,10 @@ pub(super) static WORDS: Words = Words {
             of lights, no shortcuts",
         kernel_accurate_f64: "Accurate f64 (Vulkan)",
         kernel_accurate_f64_hint: "The accurate model in double precision on the Vulkan device, where it has that",
+        shading: "Light model",
+        shading_lambert: "Lambert",
+        shading_phong: "Phong",
+        shading_whitted: "Whitted",
         kernel_reference: "Reference (CPU)",
         kernel_reference_hint: "The accurate model (equation 1.19) in f64 on the CPU: slower, without the course's \
             shortcuts",

@@ -87,6 +87,10 @@ pub(super) static WORDS: Words = Words {
             угодно источников, без упрощений курсовой",
         kernel_accurate_f64: "Точная f64 (Vulkan)",
         kernel_accurate_f64_hint: "Точная модель с двойной точностью на устройстве Vulkan, если оно её умеет",
+        shading: "Модель освещения",
+        shading_lambert: "Ламберта",
+        shading_phong: "Фонга",
+        shading_whitted: "Уиттеда",
         kernel_reference: "Точная модель (ЦП)",
         kernel_reference_hint: "Точная модель (уравнение 1.19) в f64 на центральном процессоре: медленнее, но без \
             упрощений курсовой",

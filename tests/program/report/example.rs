@@ -11,6 +11,7 @@ use zerkalo::measure::trade::{Axes, Conditions, Counted, Question, SceneTrade, S
 use zerkalo::measure::{Budget, Machine, scene_maps};
 use zerkalo::report::{Ending, NamedMaps, Report, Section, Stability};
 use zerkalo::scene::gallery;
+use zerkalo::settings::Shading;
 use zerkalo::tracer::limits_of;
 use zerkalo::validation::{Group, Outcome, Pass, Remarked, Switch, TriedCheck};
 
@@ -131,6 +132,7 @@ fn fps(machine: &Machine) -> FpsTable {
 fn trade(device: &TestDevice, machine: &Machine) -> Trade {
     let scene = gallery::scene("start").unwrap();
     let axes = Axes {
+        shading: Shading::Whitted,
         algorithms: vec![Algorithm::Plain, Algorithm::Course],
         errors: vec![0.1],
         generations: vec![1],
