@@ -1,6 +1,7 @@
 //! The catalogue of extremes (docs/numerics.md): what each kernel makes of every case, in units that a tolerance is
 //! stated in.
 
+mod glass;
 mod judge;
 mod loading;
 mod pictures;
@@ -156,5 +157,11 @@ impl Verdict {
 
 /// Every entry, in the catalogue's order.
 pub fn catalogue() -> Vec<Case> {
-    rays::cases().into_iter().chain(loading::cases()).chain(pictures::cases()).chain(reported::cases()).collect()
+    rays::cases()
+        .into_iter()
+        .chain(loading::cases())
+        .chain(pictures::cases())
+        .chain(glass::cases())
+        .chain(reported::cases())
+        .collect()
 }

@@ -78,7 +78,7 @@ fn measured(difference: &Difference, precision: Precision, least_solid: usize) -
 }
 
 /// Against the reference; nothing for the course kernel, which draws another model.
-fn compared(
+pub(super) fn compared(
     subject: &Subject,
     scene: &Scene,
     size: [u32; 2],
@@ -93,7 +93,7 @@ fn compared(
     Ok(measured(&difference, precision, least_solid))
 }
 
-fn like_reference(id: &str, scene: impl Fn() -> Scene + 'static) -> Case {
+pub(super) fn like_reference(id: &str, scene: impl Fn() -> Scene + 'static) -> Case {
     Case::of_kernel(id, move |subject| {
         let [width, height] = size(subject);
         compared(subject, &scene(), [width, height], (width * height / 20) as usize)
