@@ -16,6 +16,7 @@ mod plan_bounds;
 mod reference_leaving;
 mod reference_oracle;
 mod reference_pictures;
+mod reference_refraction;
 mod reference_shading;
 mod reference_solids;
 mod scene_binary;

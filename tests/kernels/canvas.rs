@@ -220,7 +220,7 @@ fn the_accurate_kernel_neither_traces_nor_uploads_a_scene_unchanged() {
     assert!(!easel.canvas.use_kernel(Kernel::Whitted(Precision::F32)).unwrap(), "it is the same");
     let scene = scene("four");
     // Rows of four numbers, eight of each kind for one: proxies, records, materials; view, light.
-    let rows = 8 * ((1 + 2 + 2 + 2) + (1 + 7 + 4 + 4) + 4 * 2) + (6 + 2);
+    let rows = 8 * ((1 + 2 + 2 + 2) + (1 + 7 + 4 + 4) + 4 * 2) + (7 + 2);
     assert_eq!(easel.uploaded(|easel| drop(easel.draw(&scene))), rows * 16);
     assert_eq!(easel.uploaded(|easel| assert_eq!(easel.draw(&scene).1, 0)), 0);
 }

@@ -43,28 +43,8 @@ impl CourseScene {
     fn new(scene: &Scene, settings: &Settings) -> Result<Self, TracerError> {
         let &Settings { width, height, workgroup, .. } = settings;
         settings.sampling().check_plain().map_err(TracerError::Refused)?;
-        let [light] = &scene.lights[..] else {
-            return Err(TracerError::Refused(format!(
-                "the course kernel needs exactly one light, and the scene has {}",
-                scene.lights.len()
-            )));
-        };
-        if light.radius != Light::COURSE_RADIUS {
-            return Err(TracerError::Refused(format!(
-                "the course kernel's light has a radius of {}, and the scene's of {}",
-                Light::COURSE_RADIUS,
-                light.radius
-            )));
-        }
-        if let Some(what) = beyond_the_course(scene, light) {
-            return Err(TracerError::Refused(format!("the course kernel knows no {what}, and the scene has it")));
-        }
-        if scene.primitives.len() > MAX_PRIMITIVES {
-            return Err(TracerError::Refused(format!(
-                "the course kernel takes at most {MAX_PRIMITIVES} primitives, and the scene has {}",
-                scene.primitives.len()
-            )));
-        }
+        let refused = |reason| TracerError::Refused(format!("the course kernel {reason}"));
+        let light = drawable(scene).map_err(refused)?;
         let primitives = PrimitiveRecords::of(scene);
         let generations = settings.generations(scene);
         let frame = CoursePushConstants::new(scene, light, primitives.counts(), generations, width, height);
@@ -72,18 +52,33 @@ impl CourseScene {
     }
 }
 
-/// What a scene asks for that is not in the course work's model.
-fn beyond_the_course(scene: &Scene, light: &Light) -> Option<&'static str> {
-    let LightFeatures { attenuation: _, ambient_light, shininess, media } = LightFeatures::of(scene);
-    let is_own = |primitive: &Primitive| primitive.material.reflection() != primitive.material.specular;
-    match () {
-        () if light.distance_constant.is_some() => Some("attenuation (a light's distance_constant)"),
-        () if ambient_light => Some("ambient_light other than 1"),
-        () if shininess => Some("shininess other than 5"),
-        () if media != Media::None => Some("transmission"),
-        () if scene.primitives.iter().any(is_own) => Some("reflection other than specular"),
-        () => None,
+/// Whether the kernel takes a scene; the reason is about the kernel, and a part of a line.
+pub fn check(scene: &Scene) -> Result<(), String> {
+    drawable(scene).map(drop)
+}
+
+/// The light of a scene that the kernel takes.
+fn drawable(scene: &Scene) -> Result<&Light, String> {
+    let [light] = &scene.lights[..] else {
+        return Err(format!("needs exactly one light, and the scene has {}", scene.lights.len()));
+    };
+    if light.radius != Light::COURSE_RADIUS {
+        return Err(format!("has a light of radius {}, and the scene's is {}", Light::COURSE_RADIUS, light.radius));
     }
+    if scene.primitives.len() > MAX_PRIMITIVES {
+        return Err(format!("takes at most {MAX_PRIMITIVES} primitives, and the scene has {}", scene.primitives.len()));
+    }
+    let LightFeatures { attenuation, ambient_light, shininess, media } = LightFeatures::of(scene);
+    let is_own = |primitive: &Primitive| primitive.material.reflection() != primitive.material.specular;
+    let beyond = match () {
+        () if attenuation => "a light's distance_constant",
+        () if ambient_light => "ambient_light other than 1",
+        () if shininess => "shininess other than 5",
+        () if media != Media::None => "transmission",
+        () if scene.primitives.iter().any(is_own) => "reflection other than specular",
+        () => return Ok(light),
+    };
+    Err(format!("knows no {beyond}, and the scene has it"))
 }
 
 impl State for CourseScene {
