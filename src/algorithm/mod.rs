@@ -50,8 +50,6 @@ pub struct Description {
     pub precisions: &'static [Precision],
     /// What a Vulkan device runs, one for each precision; none where the CPU does the work.
     pub kernels: &'static [Kernel],
-    /// How many lights a scene must have, where that is not free.
-    pub lights: Option<usize>,
     /// Whether it can leave out what changes a picture by less than an allowed error.
     pub approximates: bool,
     /// Whether its rays find solids by boxes around them, and can do without.
@@ -76,7 +74,6 @@ pub static ALGORITHMS: [Description; 4] = [
         about: "The course work's, quirks and all",
         precisions: &[Precision::F32],
         kernels: &[Kernel::Course],
-        lights: Some(1),
         approximates: false,
         has_hierarchy: false,
         samples: false,
@@ -91,7 +88,6 @@ pub static ALGORITHMS: [Description; 4] = [
         about: "The accurate model by textbook quadratics in f32: what accuracy costs and gains is measured against it",
         precisions: &[Precision::F32],
         kernels: &[Kernel::Plain],
-        lights: None,
         approximates: true,
         has_hierarchy: true,
         samples: false,
@@ -106,7 +102,6 @@ pub static ALGORITHMS: [Description; 4] = [
         about: "The accurate model",
         precisions: &[Precision::F32, Precision::F64],
         kernels: &[Kernel::Whitted(Precision::F32), Kernel::Whitted(Precision::F64)],
-        lights: None,
         approximates: true,
         has_hierarchy: true,
         samples: true,
@@ -121,7 +116,6 @@ pub static ALGORITHMS: [Description; 4] = [
         about: "The accurate model in f64 on the CPU, without Vulkan: the truth, slowly",
         precisions: &[Precision::F64],
         kernels: &[],
-        lights: None,
         approximates: false,
         has_hierarchy: false,
         samples: false,

@@ -18,11 +18,12 @@ pub use sheet::error_sheet;
 pub use tables::{summary, trials};
 pub use trials::{Progress, Row, try_all};
 
+use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
 
 use crate::gpu::Device;
 use crate::tracer::probe::Probe;
-use crate::tracer::{Kernel, TracerError};
+use crate::tracer::{Kernel, Tracer, TracerError};
 
 /// One thing measured of a case.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -62,11 +63,14 @@ pub struct Subject {
     /// With so few rays and pixels that the whole catalogue takes a minute.
     pub is_quick: bool,
     probe: OnceLock<Probe>,
+    /// Of the last picture, with its size: cases in a row often need the same pipeline, which takes longer to make than
+    /// a picture to draw.
+    tracer: RefCell<Option<([u32; 2], Tracer)>>,
 }
 
 impl Subject {
     pub fn new(device: &Arc<Device>, kernel: Kernel, is_quick: bool) -> Self {
-        Self { device: device.clone(), kernel, is_quick, probe: OnceLock::new() }
+        Self { device: device.clone(), kernel, is_quick, probe: OnceLock::new(), tracer: RefCell::default() }
     }
 
     fn probe(&self) -> Result<&Probe, TracerError> {

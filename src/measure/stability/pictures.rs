@@ -49,8 +49,17 @@ pub(super) fn picture(
     [width, height]: [u32; 2],
 ) -> Result<Option<Vec<DVec3>>, TracerError> {
     let settings = Settings { kernel: subject.kernel, ..Settings::new(width, height) };
-    match Tracer::new(&subject.device, scene, &settings) {
-        Ok(mut tracer) => Ok(Some(tracer.render_f64()?)),
+    let last = subject.tracer.take().filter(|(size, _)| *size == [width, height]);
+    let tracer = match last {
+        Some((_, mut tracer)) => tracer.set_scene(scene, &settings).map(|()| tracer),
+        None => Tracer::new(&subject.device, scene, &settings),
+    };
+    match tracer {
+        Ok(mut tracer) => {
+            let picture = tracer.render_f64()?;
+            subject.tracer.replace(Some(([width, height], tracer)));
+            Ok(Some(picture))
+        }
         Err(TracerError::Refused(_)) if !subject.kernel.description().is_of_accurate_model => Ok(None),
         Err(error) => Err(error),
     }
