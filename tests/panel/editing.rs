@@ -2,6 +2,8 @@
 
 use egui::{Event, Key, Modifiers, Vec2};
 use egui_kittest::kittest::Queryable;
+use zerkalo::scene::Scene;
+use zerkalo::settings::Shading;
 use zerkalo::viewer::preferences::Language;
 
 use crate::hands::*;
@@ -89,6 +91,61 @@ fn a_drag_is_one_step_back_and_so_is_each_typed_value() {
         assert_eq!(value(&window, name), expected);
     }
     assert!(!window.state().state.document.can_undo());
+}
+
+/// In both languages, and undone step by step.
+#[test]
+fn glass_is_made_in_the_panel_and_undone() {
+    for (language, add, material, n, index, own, light, fades, ambient, phong) in [
+        (
+            Language::Russian,
+            "Добавить сферу",
+            "Материал примитива",
+            "n (степень)",
+            "η (показатель преломления)",
+            "Зеркало со своим весом",
+            "Параметры света",
+            "Ослабевает с расстоянием",
+            "Рассеянный свет",
+            "Фонга",
+        ),
+        (
+            Language::English,
+            "Add a sphere",
+            "Material of the primitive",
+            "n (exponent)",
+            "η (refractive index)",
+            "Mirror by a weight of its own",
+            "Light",
+            "Fades with distance",
+            "Ambient light",
+            "Phong",
+        ),
+    ] {
+        let mut window = open(language);
+        click(&mut window, add);
+        let before = selected(&window).material.clone();
+        type_into(&mut window, &format!("{material}: K_t"), "0.8");
+        type_into(&mut window, &format!("{material}: {n}"), "33");
+        type_into(&mut window, &format!("{material}: {index}"), "1.5");
+        click(&mut window, own);
+        type_into(&mut window, &format!("{material}: K_r"), "0.2");
+        let glass = selected(&window).material.clone();
+        assert_eq!((glass.transmission, glass.shininess, glass.refractive_index), (0.8, 33.0, 1.5));
+        assert_eq!((glass.reflection, glass.specular), (Some(0.2), before.specular));
+        click(&mut window, fades);
+        type_into(&mut window, &format!("{light}: K"), "2");
+        type_into(&mut window, &format!("{ambient}: G"), "0.5");
+        assert_eq!(scene(&window).lights[0].distance_constant, Some(2.0));
+        assert_eq!(scene(&window).ambient_light.y, 0.5);
+        click(&mut window, phong);
+        assert_eq!(window.state().state.shading(), Shading::Phong);
+        while window.state().state.document.can_undo() {
+            press(&mut window, Modifiers::COMMAND, Key::Z);
+        }
+        assert_eq!(scene(&window).ambient_light, Scene::default().ambient_light);
+        assert_eq!(scene(&window).lights[0].distance_constant, None);
+    }
 }
 
 #[test]
