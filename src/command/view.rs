@@ -11,6 +11,7 @@ use crate::scene::gallery;
 use crate::settings::{RenderSettings, Shading};
 use crate::tracer::TracerError;
 use crate::viewer::action::Kernel;
+use crate::viewer::own_kernel::OwnKernel;
 use crate::viewer::{self, Document, Options};
 
 /// The gallery's scene that the course's program began with; the window opens on it as that program did.
@@ -64,7 +65,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         validation: args.validation.validation(),
         is_observed: args.observe,
         watched_sources: args.watch.clone(),
-        kernel: (args.scene == COURSE_START).then_some(Kernel::Course),
+        kernel: (args.scene == COURSE_START).then_some(Kernel::Own(OwnKernel::COURSE)),
         setting,
         shading: args.shading,
         lose_device_after: args.lose_device_after,

@@ -4,11 +4,12 @@ use std::path::PathBuf;
 
 use glam::DVec3;
 
-use super::preferences::{Preferences, UsualKernel};
+use super::own_kernel::OwnKernel;
+use super::preferences::Preferences;
+use crate::algorithm::Description;
 use crate::scene::{Light, Material, Projection, Solid, SolidKind};
 use crate::settings::sampling::Sampling;
 use crate::settings::{RenderSettings, Shading};
-use crate::tracer::Precision;
 
 /// One wish. Edits go through the undo history; a wish that cannot be granted changes nothing and shows a message.
 #[derive(Debug, Clone, PartialEq)]
@@ -117,39 +118,29 @@ pub enum UnsavedAnswer {
 /// What draws the picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Kernel {
-    /// The course work's, on the Vulkan device.
-    Course,
-    /// The accurate model on the Vulkan device; `None`: in `f32` where that is right, as the plan for the scene says.
-    Accurate(Option<Precision>),
-    /// The accurate model in `f64` on the CPU.
-    Reference,
+    /// An algorithm, exactly.
+    Own(OwnKernel),
     /// As the settings' file says, on the Vulkan device.
     BySetting(RenderSettings),
 }
 
-impl From<UsualKernel> for Kernel {
-    fn from(usual: UsualKernel) -> Self {
-        match usual {
-            UsualKernel::Course => Self::Course,
-            UsualKernel::Whitted => Self::Accurate(None),
-            UsualKernel::WhittedF32 => Self::Accurate(Some(Precision::F32)),
-            UsualKernel::WhittedF64 => Self::Accurate(Some(Precision::F64)),
-            UsualKernel::Reference => Self::Reference,
+impl Kernel {
+    /// What is asked of a plan or, where nothing is left out, of the algorithm.
+    pub fn settings(self) -> RenderSettings {
+        match self {
+            Self::Own(kernel) => kernel.settings(),
+            Self::BySetting(settings) => settings,
         }
     }
-}
 
-impl Kernel {
-    /// What the next run can begin with; `None` for what needs a settings' file.
-    pub fn usual(self) -> Option<UsualKernel> {
-        match self {
-            Self::Course => Some(UsualKernel::Course),
-            Self::Accurate(None) => Some(UsualKernel::Whitted),
-            Self::Accurate(Some(Precision::F32)) => Some(UsualKernel::WhittedF32),
-            Self::Accurate(Some(Precision::F64)) => Some(UsualKernel::WhittedF64),
-            Self::Reference => Some(UsualKernel::Reference),
-            Self::BySetting(_) => None,
-        }
+    /// Of its algorithm.
+    pub fn description(self) -> &'static Description {
+        self.settings().algorithm.description()
+    }
+
+    /// Whether it draws the accurate model, with what the panel chooses of that: light model and samples.
+    pub fn is_chosen_in_panel(self) -> bool {
+        matches!(self, Self::Own(_)) && self.description().is_of_accurate_model
     }
 }
 

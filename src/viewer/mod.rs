@@ -16,6 +16,7 @@ mod history;
 mod observer;
 mod options;
 pub mod outline;
+pub mod own_kernel;
 pub mod panel;
 pub mod pick;
 mod picture_input;

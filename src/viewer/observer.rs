@@ -96,9 +96,7 @@ impl Observation {
             dialog: state.dialog.as_ref().map(|dialog| format!("{dialog:?}")),
             refusal: None,
             kernel: match state.kernel {
-                Kernel::Course => "course",
-                Kernel::Accurate(_) => "whitted",
-                Kernel::Reference => "reference",
+                Kernel::Own(kernel) => kernel.algorithm.name(),
                 Kernel::BySetting(_) => "setting",
             }
             .to_owned(),

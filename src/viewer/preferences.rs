@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use directories::ProjectDirs;
 use serde::{Deserialize, Serialize};
 
+use super::own_kernel::OwnKernel;
 use crate::settings::sampling::MAX_SAMPLES;
 use crate::whole_file::WholeFile;
 
@@ -51,22 +52,6 @@ pub enum Theme {
     Light,
 }
 
-/// What draws the picture at first, unless the window is asked for another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum UsualKernel {
-    /// The course work's, on the Vulkan device.
-    Course,
-    /// In `f32` where that is right.
-    Whitted,
-    /// In `f32` even where that is wrong.
-    WhittedF32,
-    /// In `f64`, for devices that have it.
-    WhittedF64,
-    /// In `f64` on the CPU.
-    Reference,
-}
-
 /// All that one run leaves to the next, unsaved work apart.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
@@ -86,7 +71,7 @@ pub struct Preferences {
     /// Pictures wait for the display; off in the course's measurements.
     pub waits_for_display: bool,
     /// What draws at first.
-    pub kernel: UsualKernel,
+    pub kernel: OwnKernel,
     /// Of each pixel by the accurate kernels, at most: so many there are once nothing has changed for long enough.
     pub samples: u32,
 }
@@ -103,7 +88,7 @@ impl Default for Preferences {
             fly_speed: 3.0,
             is_mouse_inverted: false,
             waits_for_display: true,
-            kernel: UsualKernel::Whitted,
+            kernel: OwnKernel::ACCURATE,
             // Edges look smooth, and a picture at rest is soon done.
             samples: 16,
         }
@@ -169,7 +154,7 @@ mod tests {
             fly_speed: 0.7,
             is_mouse_inverted: true,
             waits_for_display: false,
-            kernel: UsualKernel::Course,
+            kernel: OwnKernel::COURSE,
             samples: 7,
         }
     }

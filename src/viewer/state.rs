@@ -127,7 +127,7 @@ impl State {
         let preferences = preferences.clamped();
         Self {
             document,
-            kernel: preferences.kernel.into(),
+            kernel: Kernel::Own(preferences.kernel),
             preferences,
             scale: Sampling::PLAIN.scale,
             setting: None,
@@ -153,11 +153,7 @@ impl State {
 
     /// How much of the light model is drawn of it.
     pub fn shading(&self) -> Shading {
-        match self.kernel {
-            Kernel::Accurate(_) | Kernel::Reference => self.shading,
-            Kernel::BySetting(RenderSettings { shading, .. }) => shading,
-            Kernel::Course => Shading::Whitted,
-        }
+        if self.kernel.is_chosen_in_panel() { self.shading } else { self.kernel.settings().shading }
     }
 
     /// How finely the accurate kernels trace once nothing changes.
@@ -167,11 +163,8 @@ impl State {
 
     /// How finely the kernel that draws traces; those other than the accurate one know but one way.
     pub fn sampling(&self) -> Sampling {
-        match self.kernel {
-            Kernel::Accurate(_) => self.accurate_sampling(),
-            Kernel::BySetting(RenderSettings { samples, scale, .. }) => Sampling { samples, scale },
-            Kernel::Course | Kernel::Reference => Sampling::PLAIN,
-        }
+        let is_of_panel = self.kernel.is_chosen_in_panel() && self.kernel.description().samples;
+        if is_of_panel { self.accurate_sampling() } else { self.kernel.settings().sampling() }
     }
 
     /// Does what is asked and returns what is left to do outside the state.
@@ -287,7 +280,9 @@ impl State {
 
     fn set_kernel(&mut self, kernel: Kernel) {
         self.kernel = kernel;
-        self.preferences.kernel = kernel.usual().unwrap_or(self.preferences.kernel);
+        if let Kernel::Own(kernel) = kernel {
+            self.preferences.kernel = kernel;
+        }
     }
 
     fn edit(&mut self, edit: impl FnOnce(&mut Document) -> Result<(), Refusal>) {

@@ -5,8 +5,10 @@
 mod english;
 mod russian;
 
+use super::own_kernel::OwnKernel;
 use super::preferences::Language;
 use super::state::{FilePurpose, Message};
+use crate::algorithm::{Algorithm, Precision};
 use crate::scene::{Primitive, SolidKind};
 
 /// What stands for a figure that is not there.
@@ -174,6 +176,24 @@ pub(super) struct GroupWords {
     pub(super) percentile_99: &'static str,
     pub(super) graph_frames: &'static str,
     pub(super) graph_time: &'static str,
+}
+
+impl GroupWords {
+    /// A kernel's label and what is to be known of it; `None` of what the window does not offer.
+    pub(super) fn kernel_words(&self, OwnKernel { algorithm, precision }: OwnKernel) -> Option<[&'static str; 2]> {
+        match (algorithm, precision) {
+            (Algorithm::Course, _) => Some([self.kernel_course, self.kernel_course_hint]),
+            (Algorithm::Whitted, None) => Some([self.kernel_accurate, self.kernel_accurate_hint]),
+            (Algorithm::Whitted, Some(Precision::F32)) => {
+                Some([self.kernel_accurate_f32, self.kernel_accurate_f32_hint])
+            }
+            (Algorithm::Whitted, Some(Precision::F64)) => {
+                Some([self.kernel_accurate_f64, self.kernel_accurate_f64_hint])
+            }
+            (Algorithm::Reference, _) => Some([self.kernel_reference, self.kernel_reference_hint]),
+            (Algorithm::Plain, _) => None,
+        }
+    }
 }
 
 /// Of the modal dialogs.

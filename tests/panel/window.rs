@@ -6,6 +6,7 @@ use zerkalo::scene::gallery;
 use zerkalo::settings::sampling::Sampling;
 use zerkalo::tracer::Precision;
 use zerkalo::viewer::action::{Action, Effect, Kernel};
+use zerkalo::viewer::own_kernel::OwnKernel;
 use zerkalo::viewer::preferences::{Language, Preferences, Theme};
 use zerkalo::viewer::state::{Dialog, FilePurpose};
 
@@ -67,10 +68,10 @@ fn camera_and_kernel_answer_to_their_widgets() {
         click(&mut window, button);
     }
     for (button, kernel) in [
-        ("Точная f64 (Vulkan)", Kernel::Accurate(Some(Precision::F64))),
-        ("Точная f32 (Vulkan)", Kernel::Accurate(Some(Precision::F32))),
-        ("Курсовая (Vulkan)", Kernel::Course),
-        ("Точная модель (ЦП)", Kernel::Reference),
+        ("Точная f64 (Vulkan)", Kernel::Own(OwnKernel { precision: Some(Precision::F64), ..OwnKernel::ACCURATE })),
+        ("Точная f32 (Vulkan)", Kernel::Own(OwnKernel { precision: Some(Precision::F32), ..OwnKernel::ACCURATE })),
+        ("Курсовая (Vulkan)", Kernel::Own(OwnKernel::COURSE)),
+        ("Точная модель (ЦП)", Kernel::Own(OwnKernel::REFERENCE)),
     ] {
         click(&mut window, button);
         assert_eq!(window.state().state.kernel, kernel);
@@ -78,7 +79,7 @@ fn camera_and_kernel_answer_to_their_widgets() {
     let state = &window.state().state;
     let scene = state.document.scene();
     assert_eq!((scene.max_depth, scene.camera.vertical_fov_degrees, scene.background.z), (5, 40.0, 1.5));
-    assert_eq!((scene.camera.projection.name(), state.kernel), ("course", Kernel::Reference));
+    assert_eq!((scene.camera.projection.name(), state.kernel), ("course", Kernel::Own(OwnKernel::REFERENCE)));
     assert_eq!(state.preferences.fly_speed, 8.0);
     assert!(state.preferences.is_mouse_inverted && state.is_continuous);
 }

@@ -6,8 +6,8 @@ use super::fields::{RGB, Scale, check, choice, group, number, number_row, vector
 use crate::scene::{DEPTH_LIMIT, Projection};
 use crate::settings::Shading;
 use crate::settings::sampling::{MAX_SAMPLES, MIN_SCALE, Sampling};
-use crate::tracer::Precision;
 use crate::viewer::action::{Action, Kernel};
+use crate::viewer::own_kernel::OwnKernel;
 use crate::viewer::preferences::Preferences;
 use crate::viewer::state::State;
 use crate::viewer::text::Words;
@@ -44,9 +44,9 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>
         }
         show_flight(ui, words, &state.preferences, actions);
         show_kernel(ui, words, state, actions);
-        let has_shading = matches!(state.kernel, Kernel::Accurate(_) | Kernel::Reference);
+        let has_shading = state.kernel.is_chosen_in_panel();
         ui.add_enabled_ui(has_shading, |ui| show_shading(ui, words, state.shading(), actions));
-        let has_sampling = matches!(state.kernel, Kernel::Accurate(_));
+        let has_sampling = has_shading && state.kernel.description().samples;
         ui.add_enabled_ui(has_sampling, |ui| show_sampling(ui, words, state.accurate_sampling(), actions));
     });
 }
@@ -69,18 +69,12 @@ fn show_projection(ui: &mut Ui, words: &Words, now: Projection, actions: &mut Ve
 
 fn show_kernel(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>) {
     let groups = &words.groups;
-    let choices = [
-        (Kernel::Course, groups.kernel_course, groups.kernel_course_hint),
-        (Kernel::Accurate(None), groups.kernel_accurate, groups.kernel_accurate_hint),
-        (Kernel::Accurate(Some(Precision::F32)), groups.kernel_accurate_f32, groups.kernel_accurate_f32_hint),
-        (Kernel::Accurate(Some(Precision::F64)), groups.kernel_accurate_f64, groups.kernel_accurate_f64_hint),
-        (Kernel::Reference, groups.kernel_reference, groups.kernel_reference_hint),
-    ];
     ui.label(groups.kernel);
     ui.horizontal_wrapped(|ui| {
-        for (kernel, label, hint) in choices {
-            if choice(ui, state.kernel == kernel, label, hint) {
-                actions.push(Action::SetKernel(kernel));
+        for kernel in OwnKernel::all() {
+            let Some([label, hint]) = groups.kernel_words(kernel) else { continue };
+            if choice(ui, state.kernel == Kernel::Own(kernel), label, hint) {
+                actions.push(Action::SetKernel(Kernel::Own(kernel)));
             }
         }
         if let Some(setting) = state.setting {

@@ -3,8 +3,8 @@
 use egui::Ui;
 
 use super::Readings;
-use crate::tracer::Precision;
 use crate::viewer::action::Kernel;
+use crate::viewer::own_kernel::OwnKernel;
 use crate::viewer::state::State;
 use crate::viewer::text::Words;
 
@@ -12,15 +12,11 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, readings: &Readings) {
     let groups = &words.groups;
     let [width, height] = readings.picture_size;
     let kernel = match state.kernel {
-        Kernel::Course => groups.kernel_course,
-        Kernel::Accurate(_) => match readings.precision {
-            Some(Precision::F32) => groups.kernel_accurate_f32,
-            Some(Precision::F64) => groups.kernel_accurate_f64,
-            None => groups.kernel_accurate,
-        },
-        Kernel::Reference => groups.kernel_reference,
-        Kernel::BySetting(_) => groups.kernel_by_setting,
+        // In the precision that was chosen.
+        Kernel::Own(kernel) => groups.kernel_words(OwnKernel { precision: readings.precision, ..kernel }),
+        Kernel::BySetting(_) => Some([groups.kernel_by_setting, ""]),
     };
+    let kernel = kernel.map_or("", |[label, _]| label);
     let rate = words.frames_per_second(readings.frame_times.frames_per_second());
     // One row, cut off where it ends: a bar that grew with its readings would take room from the picture, which would
     // be traced anew, and read otherwise again.

@@ -103,7 +103,7 @@ impl Session {
         self.take_screenshots()?;
         self.show_title();
         self.observe(observation)?;
-        let is_next_due = self.state.is_continuous && self.state.kernel != Kernel::Reference && self.is_whole();
+        let is_next_due = self.state.is_continuous && self.state.kernel.description().is_on_device() && self.is_whole();
         if self.stage() != stage_before || is_next_due {
             // The widgets have told of what was, or a screenshot has held up the next picture.
             self.wake();
@@ -295,8 +295,8 @@ impl Session {
         observation.gpu_time_ms = self.frame_times.percentile_ns(50).map(|median_ns| median_ns as f64 / 1e6);
         observation.uploaded_bytes = screen.canvas.uploaded_bytes();
         observation.refusal = self.refusal.clone();
-        if let (Kernel::Accurate(_), Some(chosen)) = (self.state.kernel, &self.chosen) {
-            observation.kernel = format!("whitted {}", chosen.precision.name());
+        if let (Kernel::Own(kernel), Some(chosen)) = (self.state.kernel, &self.chosen) {
+            observation.kernel = format!("{} {}", kernel.algorithm.name(), chosen.precision.name());
         }
         observation.device_losses = self.losses.count;
         observation.validation_messages = self.messages.count();

@@ -4,6 +4,7 @@ use std::time::Instant;
 
 use super::super::action::Kernel;
 use super::super::options::Wake;
+use super::super::own_kernel::OwnKernel;
 use super::super::reference_worker::ReferenceWorker;
 use super::super::screen::ScreenError;
 use super::super::state::Message;
@@ -11,7 +12,7 @@ use super::{Reference, Screenshot, Session};
 use crate::plan::{Limits, Plan, PlanError};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
-use crate::tracer::{self, Canvas, Settings, TracerError, limits_of};
+use crate::tracer::{Canvas, Settings, TracerError, limits_of};
 
 impl Session {
     /// Kernels compiled meanwhile take the last ones' places; of a broken one is told, and its last good build goes on.
@@ -67,16 +68,22 @@ impl Session {
     fn ask_kernel(&mut self, limits: &Limits, size: [u32; 2]) -> Result<(), TracerError> {
         let scene = &*self.state.shading().applied(self.state.document.scene());
         let chosen = self.chosen.as_ref().map(|chosen| chosen.precision);
-        let exact = |kernel| Settings { kernel, ..Settings::new(size[0], size[1]) };
+        if !self.state.kernel.description().is_on_device() {
+            return self.ask_for_reference();
+        }
+        let settings = self.state.kernel.settings();
+        // With the precision chosen already, no pixels are tried for it.
+        let settings = RenderSettings { precision: chosen.or(settings.precision), ..settings };
         let settings = match self.state.kernel {
-            Kernel::Course => exact(tracer::Kernel::Course),
-            Kernel::Accurate(_) => exact(tracer::Kernel::Whitted(chosen.unwrap_or_default())),
-            Kernel::Reference => return self.ask_for_reference(),
-            // What may be left out is another thing for every scene.
-            Kernel::BySetting(setting) => {
-                // With the precision chosen already, no pixels are tried for it.
-                let setting = RenderSettings { precision: chosen.or(setting.precision), ..setting };
-                let plan = Plan::for_scene(scene, &setting, size, limits);
+            // What a plan leaves out is another thing for every scene, and a kernel would be compiled at every edit.
+            Kernel::Own(OwnKernel { algorithm, .. }) => {
+                let precision = settings.precision.unwrap_or(algorithm.description().precisions[0]);
+                let kernel = algorithm.kernel(precision);
+                let kernel = kernel.ok_or_else(|| TracerError::Refused(format!("no {} there", precision.name())))?;
+                Settings { kernel, ..Settings::new(size[0], size[1]) }
+            }
+            Kernel::BySetting(_) => {
+                let plan = Plan::for_scene(scene, &settings, size, limits);
                 Settings::planned(&plan.map_err(|error| TracerError::Refused(error.to_string()))?)
             }
         };

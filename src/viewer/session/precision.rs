@@ -28,15 +28,8 @@ struct Asked {
 impl Asked {
     /// `None` of kernels that calculate in one way.
     fn by(kernel: Kernel) -> Option<Self> {
-        match kernel {
-            Kernel::Accurate(precision) => Some(Self { precision, max_depth: None, error: 0.0 }),
-            Kernel::BySetting(RenderSettings { algorithm, precision, max_depth, error, .. })
-                if algorithm.description().has_precisions() =>
-            {
-                Some(Self { precision, max_depth, error })
-            }
-            Kernel::BySetting(_) | Kernel::Course | Kernel::Reference => None,
-        }
+        let RenderSettings { precision, max_depth, error, .. } = kernel.settings();
+        kernel.description().has_precisions().then_some(Self { precision, max_depth, error })
     }
 }
 
@@ -69,7 +62,7 @@ impl Session {
             (self.chosen, self.is_precision_known) = (None, true);
             return Ok(());
         };
-        let scene = self.state.document.scene();
+        let scene = &*self.state.shading().applied(self.state.document.scene());
         let is_current = |chosen: &Chosen| chosen.is_for(scene, size, asked);
         let is_of_another_choice = self.chosen.as_ref().is_none_or(|chosen| chosen.asked != asked);
         if is_of_another_choice || (is_at_rest && !self.chosen.as_ref().is_some_and(is_current)) {

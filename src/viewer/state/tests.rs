@@ -7,7 +7,7 @@ use tempfile::TempDir;
 use super::*;
 use crate::plan::Precision;
 use crate::scene::{COURSE_PRIMITIVE_LIMIT, Camera, Light, Material, Projection, Solid, SolidKind};
-use crate::viewer::preferences::UsualKernel;
+use crate::viewer::own_kernel::OwnKernel;
 
 fn start() -> State {
     State::new(Document::new(Scene::default(), None), Preferences::default(), None)
@@ -87,11 +87,11 @@ fn actions_under_a_dialog_are_ignored_but_the_window_s_settings() {
     }
     assert_eq!(state.document.scene(), &before);
     assert!(message(&state).is_some());
-    state.apply(Action::SetKernel(Kernel::Reference));
+    state.apply(Action::SetKernel(Kernel::Own(OwnKernel::REFERENCE)));
     state.apply(Action::SetContinuous(true));
     let sampling = Sampling { samples: 9, scale: 0.5 };
     state.apply(Action::SetSampling(sampling));
-    assert_eq!((state.kernel, state.is_continuous), (Kernel::Reference, true));
+    assert_eq!((state.kernel, state.is_continuous), (Kernel::Own(OwnKernel::REFERENCE), true));
     assert_eq!(
         (state.accurate_sampling(), state.sampling()),
         (sampling, Sampling::PLAIN),
@@ -103,14 +103,18 @@ fn actions_under_a_dialog_are_ignored_but_the_window_s_settings() {
 
 #[test]
 fn the_first_kernel_is_the_accurate_one_with_samples_to_come() {
-    assert_eq!(start().kernel, Kernel::Accurate(None));
+    assert_eq!(start().kernel, Kernel::Own(OwnKernel::ACCURATE));
     assert_eq!(start().sampling(), Sampling { samples: 16, scale: 1.0 });
 }
 
 #[test]
 fn a_kernel_and_samples_that_are_chosen_are_those_of_the_next_run() {
     let mut state = start();
-    for kernel in [Kernel::Course, Kernel::Accurate(Some(Precision::F64)), Kernel::Reference] {
+    for kernel in [
+        Kernel::Own(OwnKernel::COURSE),
+        Kernel::Own(OwnKernel { precision: Some(Precision::F64), ..OwnKernel::ACCURATE }),
+        Kernel::Own(OwnKernel::REFERENCE),
+    ] {
         state.apply(Action::SetKernel(kernel));
         let next = State::new(Document::new(Scene::default(), None), state.preferences.clone(), None);
         assert_eq!(next.kernel, kernel);
@@ -122,14 +126,14 @@ fn a_kernel_and_samples_that_are_chosen_are_those_of_the_next_run() {
 
 #[test]
 fn what_a_run_is_asked_to_begin_with_is_not_remembered_until_it_is_chosen() {
-    let course = || start().drawn_by(Some(Kernel::Course), None);
-    assert_eq!((course().kernel, course().preferences.kernel), (Kernel::Course, UsualKernel::Whitted));
+    let course = || start().drawn_by(Some(Kernel::Own(OwnKernel::COURSE)), None);
+    assert_eq!((course().kernel, course().preferences.kernel), (Kernel::Own(OwnKernel::COURSE), OwnKernel::ACCURATE));
     let setting = RenderSettings::default();
-    let mut state = start().drawn_by(Some(Kernel::Course), Some(setting));
+    let mut state = start().drawn_by(Some(Kernel::Own(OwnKernel::COURSE)), Some(setting));
     assert_eq!(state.kernel, Kernel::BySetting(setting), "the file goes before the scene");
-    state.apply(Action::SetKernel(Kernel::Reference));
+    state.apply(Action::SetKernel(Kernel::Own(OwnKernel::REFERENCE)));
     state.apply(Action::SetKernel(Kernel::BySetting(setting)));
-    assert_eq!(state.preferences.kernel, UsualKernel::Reference, "the next run has no such file");
+    assert_eq!(state.preferences.kernel, OwnKernel::REFERENCE, "the next run has no such file");
 }
 
 #[test]
