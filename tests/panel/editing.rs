@@ -133,7 +133,7 @@ fn glass_is_made_in_the_panel_and_undone() {
         let glass = selected(&window).material.clone();
         assert_eq!((glass.transmission, glass.shininess, glass.refractive_index), (0.8, 33.0, 1.5));
         assert_eq!((glass.reflection, glass.specular), (Some(0.2), before.specular));
-        click(&mut window, fades);
+        click(&mut window, &format!("{light}: {fades}"));
         type_into(&mut window, &format!("{light}: K"), "2");
         type_into(&mut window, &format!("{ambient}: G"), "0.5");
         assert_eq!(scene(&window).lights[0].distance_constant, Some(2.0));

@@ -145,6 +145,14 @@ pub fn check(ui: &mut Ui, is_set: bool, label: &str) -> Option<bool> {
     ui.checkbox(&mut edited, label).changed().then_some(edited)
 }
 
+/// A check box of a group of which there may be several, with the accessible name `GROUP: LABEL`; what it was set to.
+pub fn check_of(ui: &mut Ui, group: &str, is_set: bool, label: &str) -> Option<bool> {
+    let mut edited = is_set;
+    let response = ui.checkbox(&mut edited, label);
+    name_widget(&response, || format!("{group}: {label}"));
+    response.changed().then_some(edited)
+}
+
 /// Says what a widget is called, to screen readers and tests.
 pub fn name_widget(response: &Response, name: impl FnOnce() -> String) {
     response.ctx.accesskit_node_builder(response.id, |node| node.set_label(name()));

@@ -2,7 +2,7 @@
 
 use egui::Ui;
 
-use super::fields::{RGB, Scale, XYZ, check, group, number_row, vector};
+use super::fields::{RGB, Scale, XYZ, check_of, group, number_row, vector};
 use crate::scene::{LIGHT_LIMIT, Light, Scene};
 use crate::viewer::action::Action;
 use crate::viewer::text::Words;
@@ -28,7 +28,7 @@ fn show_light(ui: &mut Ui, words: &Words, index: usize, light: &Light, actions: 
     let position = vector(ui, &name, XYZ, light.position, &Scale::POSITION);
     let intensity = vector(ui, &name, RGB, light.intensity, &Scale::INTENSITY);
     let radius = number_row(ui, &name, groups.radius, light.radius, &Scale::HALF_SIZE);
-    let attenuates = check(ui, light.distance_constant.is_some(), groups.attenuation);
+    let attenuates = check_of(ui, &name, light.distance_constant.is_some(), groups.attenuation);
     let distance_constant = match attenuates {
         Some(attenuates) => attenuates.then_some(1.0),
         None => light
