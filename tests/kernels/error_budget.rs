@@ -17,26 +17,28 @@ const SCENES: u64 = 240;
 const SIZE: [u32; 2] = [24, 16];
 
 /// A [random scene](random_scene) of which some solids are glass, some highlights have exponents of their own and some
-/// lights fade.
+/// lights fade: of each at least one, so that few pipelines draw them all.
 fn random_glass_scene(seed: u64) -> Scene {
     let mut random = Random(seed ^ 0x61a55);
     let mut scene = random_scene(seed);
-    // Branches are twice as many with each generation.
-    scene.max_depth = scene.max_depth.min(8);
-    for primitive in &mut scene.primitives {
+    scene.max_depth = 6;
+    for (index, primitive) in scene.primitives.iter_mut().enumerate() {
         let material = &mut primitive.material;
-        if random.chance(0.6) {
-            material.transmission = random.uniform(0.0, 0.7);
+        if index == 0 || random.chance(0.6) {
+            material.transmission = random.uniform(0.01, 0.7);
             material.refractive_index = random.uniform(0.7, 2.0);
             // Now below 1 together with the mirrored ray, and now above.
             material.reflection = Some(random.uniform(0.0, 0.5));
         }
-        material.shininess = if random.chance(0.5) { random.uniform(1.0, 200.0) } else { material.shininess };
+        if index == 0 || random.chance(0.5) {
+            material.specular = material.specular.max(0.01);
+            material.shininess = random.uniform(1.0, 200.0);
+        }
     }
-    for light in &mut scene.lights {
-        light.distance_constant = random.chance(0.5).then(|| random.magnitude(-1.0, 1.0));
+    for (index, light) in scene.lights.iter_mut().enumerate() {
+        light.distance_constant = (index == 0 || random.chance(0.5)).then(|| random.magnitude(-1.0, 1.0));
     }
-    scene.ambient_light = if random.chance(0.3) { DVec3::new(0.5, 2.0, 1.0) } else { DVec3::ONE };
+    scene.ambient_light = DVec3::new(0.5, 2.0, random.uniform(0.0, 2.0));
     scene
 }
 
