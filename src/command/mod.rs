@@ -37,7 +37,8 @@ use crate::settings::SettingsError;
 use crate::tracer::TracerError;
 use crate::viewer::ViewerError;
 
-/// What the program is asked to do. A variant has no doc comment: it would take the place of its arguments' help.
+/// What the program is asked to do.
+#[allow(missing_docs, reason = "clap puts a variant's doc in place of its arguments' help")]
 #[derive(Debug, Subcommand)]
 pub enum Command {
     View(view::ViewArgs),

@@ -36,7 +36,7 @@ pub fn error_map(reference: &Frame, picture: &Frame) -> Result<Frame, FrameError
     Ok(map)
 }
 
-/// The shades from [`SMALLEST_ERROR`] at the left to [`LARGEST_ERROR`] at the right.
+/// Shades of errors from `SMALLEST_ERROR` at the left to `LARGEST_ERROR` at the right, on a logarithmic scale.
 ///
 /// # Errors
 /// The size is impossible.

@@ -7,6 +7,7 @@ use crate::gpu::DeviceDescription;
 /// What measured.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Machine {
+    /// Name that the driver gives it.
     pub device: String,
     /// Name and version.
     pub driver: String,

@@ -16,7 +16,7 @@ pub fn median(samples_ns: &[u64]) -> Option<u64> {
     median_of_sorted(&sorted(samples_ns))
 }
 
-/// First quartile, median and third quartile, between values as in [`Summary::quartiles_ns`]. `None` without values.
+/// First quartile, median and third quartile, between values as in `Summary::quartiles_ns`. `None` without values.
 pub fn quartiles(values: &[f64]) -> Option<[f64; 3]> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);

@@ -17,6 +17,7 @@ use crate::tracer::{Settings, Tracer, TracerError};
 pub struct Budget {
     /// Wall time of the kernel's frames, milliseconds.
     pub time_ms: u64,
+    /// Number of frames.
     pub frames: usize,
     /// Frames are not enough before so much time, milliseconds: a fast device raises its clock under load only.
     pub least_ms: u64,

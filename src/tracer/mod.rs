@@ -36,15 +36,24 @@ pub enum TracerError {
     /// The scene or the settings are not for this kernel.
     #[error("{0}")]
     Refused(String),
+    /// The caller broke the work off.
     #[error("stopped")]
     Stopped,
+    /// A driver that runs on the CPU ended loops early: pixels would be wrong.
     #[error(
         "device '{device}' gave up on {pixels} pixels, as Mesa's CPU drivers do where a pixel takes more than 65535 \
          iterations of loops; fewer primitives or generations are needed there"
     )]
-    LoopLimitReached { device: String, pixels: usize },
+    LoopLimitReached {
+        /// Name of the device.
+        device: String,
+        /// Number of pixels without a colour.
+        pixels: usize,
+    },
+    /// A call of Vulkan failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// A frame of a size that cannot be, or no memory for it.
     #[error(transparent)]
     Frame(#[from] FrameError),
 }

@@ -10,6 +10,7 @@ use crate::settings::sampling::Sampling;
 pub struct Settings {
     /// Pixels.
     pub width: u32,
+    /// Pixels.
     pub height: u32,
     /// In place of the scene's.
     pub max_depth: Option<u32>,
@@ -18,6 +19,7 @@ pub struct Settings {
     pub max_tile_side: u32,
     /// Pixels of a workgroup along x and y.
     pub workgroup: [u32; 2],
+    /// Algorithm and precision.
     pub kernel: Kernel,
     /// What is left out; the course kernel leaves out nothing.
     pub approximations: Approximations,

@@ -12,14 +12,13 @@ mod tables;
 
 use serde::{Deserialize, Serialize};
 
-pub use agreement::{Agreement, Bend, Ratio};
-pub use chart::chart;
-pub use figures::{Figures, figures};
-pub use file::FpsTableError;
-pub use measuring::{OffScreen, Stage, measure, no_scene, settings_of};
-pub use published::{CLAIMED_OF_SPHERES, CLAIMED_ORDER, published};
-pub use speeds::Speeds;
-pub use tables::{agreement, spreads};
+pub(crate) use agreement::Agreement;
+pub(crate) use chart::chart;
+pub(crate) use file::FpsTableError;
+pub(crate) use measuring::{OffScreen, Stage, measure, no_scene, settings_of};
+pub(crate) use published::{CLAIMED_OF_SPHERES, published};
+pub(crate) use speeds::Speeds;
+pub(crate) use tables::{agreement, spreads};
 
 use super::{Budget, Clock, Machine, Summary};
 use crate::algorithm::{Algorithm, Kernel, Precision};
@@ -42,13 +41,16 @@ fn kernel_of(algorithm: Algorithm) -> Result<Kernel, TracerError> {
 pub struct Plan {
     /// Pixels.
     pub width: u32,
+    /// Pixels.
     pub height: u32,
     /// Of a ray.
     pub generations: u32,
+    /// Kernels, each once.
     #[serde(rename = "kernels")]
     pub algorithms: Vec<Algorithm>,
     /// Numbers of solids, ascending.
     pub counts: Vec<usize>,
+    /// Of each kernel in each cell.
     pub budget: Budget,
     /// Whether the validation layers watch, which takes its time.
     pub validation: bool,
@@ -106,9 +108,11 @@ impl Plan {
 /// What one kernel makes of one number of one kind of solids.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cell {
+    /// Of solids.
     pub kind: SolidKind,
     /// Of solids.
     pub count: usize,
+    /// Kernel that drew it.
     #[serde(rename = "kernel")]
     pub algorithm: Algorithm,
     /// GPU time of every frame but the first, in order; `None` where the device has no timestamps.
@@ -135,7 +139,9 @@ pub fn frames_per_second(frame_time_ns: f64) -> f64 {
 /// What was measured, whole or in part.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FpsTable {
+    /// Where it was measured.
     pub machine: Machine,
+    /// What belongs in the table.
     pub plan: Plan,
     /// In the order of measuring.
     pub cells: Vec<Cell>,
@@ -162,7 +168,8 @@ impl FpsTable {
         self.cells.extend(cells);
     }
 
-    pub fn cell(&self, kind: SolidKind, count: usize, algorithm: Algorithm) -> Option<&Cell> {
+    /// What is known of a cell; `None`: not measured yet.
+    pub(crate) fn cell(&self, kind: SolidKind, count: usize, algorithm: Algorithm) -> Option<&Cell> {
         self.cells.iter().find(|cell| (cell.kind, cell.count, cell.algorithm) == (kind, count, algorithm))
     }
 

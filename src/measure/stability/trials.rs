@@ -12,16 +12,19 @@ use crate::tracer::{Kernel, TracerError};
 /// What came of a case on a kernel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
+    /// Of the case, such as `SC-1`.
     pub id: String,
     /// `scene` where the loader is tried, before any kernel.
     pub kernel: &'static str,
     /// Null for the loader.
     pub precision: Option<&'static str>,
+    /// Whether all measurements of the case passed.
     pub pass: bool,
     /// Of all that was measured, what comes nearest to its bound or is farthest beyond.
     pub what: &'static str,
     /// Null where it is not a number.
     pub measured: f64,
+    /// Largest `measured` that passes.
     pub bound: f64,
 }
 

@@ -22,8 +22,13 @@ type KeepGoing<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 pub enum Step<'a> {
     /// A part of a frame is drawn: a good place to stop.
     Tile,
-    /// So many settings are done, and this one, whose name it is, is next.
-    Setting { done: usize, name: &'a str },
+    /// The next setting begins.
+    Setting {
+        /// Number of settings measured before.
+        done: usize,
+        /// Of the setting that is next, in words.
+        name: &'a str,
+    },
 }
 
 /// Measures a sweep on a scene, and once more those settings between which noise may have decided a question. Adds to

@@ -18,12 +18,13 @@ mod truth;
 
 use serde::Serialize;
 
-pub use chart::chart;
-pub use choice::{Candidate, Question, contenders, front};
-pub use figures::{Answer, Figures, answers, figures};
+pub(crate) use chart::chart;
+pub use choice::Question;
+pub(crate) use choice::{Candidate, contenders, front};
+pub(crate) use figures::{Answer, Figures, answers, figures};
 pub use measuring::{Step, measure};
 pub use sweep::{Axes, Planned, Sweep};
-pub use tables::{asked, settings};
+pub(crate) use tables::{asked, settings};
 pub use truth::{Truth, TruthError, truth};
 
 use super::{Budget, Clock, ImageError, Machine, median, quartiles};
@@ -41,19 +42,11 @@ pub enum Target {
     Area,
 }
 
-impl Target {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Point => "point",
-            Self::Area => "area",
-        }
-    }
-}
-
 /// Which pixels' largest error is the error of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Counted {
+    /// Discontinuities count, too.
     #[default]
     AllPixels,
     /// Without discontinuities: pixels beside one whose ray goes another way.
@@ -65,13 +58,17 @@ pub enum Counted {
 pub struct Conditions {
     /// Pixels.
     pub width: u32,
+    /// Pixels.
     pub height: u32,
+    /// What errors are measured against.
     pub target: Target,
+    /// Which pixels decide.
     pub counted: Counted,
     /// Of a setting's pairs.
     pub budget: Budget,
     /// Whether the validation layers watch, which takes its time.
     pub validation: bool,
+    /// Answered for every scene.
     pub questions: Vec<Question>,
 }
 
@@ -83,6 +80,7 @@ pub struct PictureError {
     pub image: ImageError,
     /// Largest error of a channel off discontinuities; `None` where it is not finite.
     pub max_abs_off_discontinuities: Option<f64>,
+    /// Number of pixels beside one whose ray takes another path.
     pub discontinuity_pixels: usize,
     /// Those that are more than 1/510 off.
     pub differing_discontinuity_pixels: usize,
@@ -107,13 +105,16 @@ impl PictureError {
 /// A setting, measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Point {
+    /// What was asked for.
     pub setting: RenderSettings,
     /// What it leaves out changes no linear channel by more: proven, rounding not in it. `None` where nothing is
     /// proven.
     pub bound: Option<f64>,
+    /// Against the target.
     pub error: PictureError,
     /// Of pairs of frames, in order: the baseline's and the setting's.
     pub baseline_samples_ns: Vec<u64>,
+    /// GPU or wall time of the setting's frames, by the scene's clock.
     pub samples_ns: Vec<u64>,
 }
 
@@ -128,7 +129,9 @@ impl Point {
 /// A setting that was not measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LeftOut {
+    /// What was asked for.
     pub setting: RenderSettings,
+    /// Why not, in one line.
     pub reason: String,
 }
 
@@ -137,6 +140,7 @@ pub struct LeftOut {
 pub struct SceneTrade {
     /// Name or file.
     pub scene: String,
+    /// Number of solids.
     pub solids: usize,
     /// Generations of a ray by the scene.
     pub max_depth: u32,
@@ -144,6 +148,7 @@ pub struct SceneTrade {
     pub clock: Clock,
     /// In the order of measuring; the baseline, measured against itself, is the first.
     pub points: Vec<Point>,
+    /// Settings that were not measured.
     pub left_out: Vec<LeftOut>,
     /// False after Ctrl-C.
     pub complete: bool,
@@ -188,7 +193,10 @@ impl SceneTrade {
 /// What was measured, whole or in part.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Trade {
+    /// Where it was measured.
     pub machine: Machine,
+    /// Same for all scenes.
     pub conditions: Conditions,
+    /// In the order of measuring.
     pub scenes: Vec<SceneTrade>,
 }

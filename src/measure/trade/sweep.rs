@@ -10,6 +10,7 @@ use crate::tracer::Settings;
 /// What is varied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axes {
+    /// Kernels, each in all its precisions.
     pub algorithms: Vec<Algorithm>,
     /// Allowed errors, besides none.
     pub errors: Vec<f64>,
@@ -19,6 +20,7 @@ pub struct Axes {
     pub samples: Vec<u32>,
     /// Of the traced picture, besides 1.
     pub scales: Vec<f64>,
+    /// What errors are measured against.
     pub target: Target,
     /// Of all settings.
     pub shading: Shading,
@@ -52,7 +54,9 @@ impl Axes {
 /// A setting with what it comes to on a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Planned {
+    /// What was asked for.
     pub setting: RenderSettings,
+    /// What the tracer is given for it.
     pub settings: Settings,
     /// See [`Point::bound`](super::Point::bound).
     pub bound: Option<f64>,

@@ -25,8 +25,10 @@ pub struct Truth {
 /// Why there is none.
 #[derive(Debug, thiserror::Error)]
 pub enum TruthError {
+    /// The reference could not render the scene, or was stopped.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// A frame of a size that cannot be, or no memory for it.
     #[error(transparent)]
     Frame(#[from] FrameError),
 }

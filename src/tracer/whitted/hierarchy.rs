@@ -23,6 +23,7 @@ pub fn level_count(solids: usize) -> usize {
 /// One level over the solids.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Level {
+    /// Bounds of each group of the level below, in order.
     pub boxes: Vec<Bounds>,
     /// Of each group of boxes, the axis along which they lie one behind the other.
     pub orders: Vec<usize>,

@@ -84,6 +84,7 @@ impl WhittedRecords {
 /// All that the kernel is told of the primitives.
 #[derive(Debug, Default, PartialEq)]
 pub struct SolidRecords {
+    /// Kernel frame that all records are in.
     pub frame: SceneSpace,
     /// The proxies of each kind's solids and the boxes over them, for the search in `f32`.
     pub proxies: Vec<[f32; 4]>,
@@ -95,6 +96,7 @@ pub struct SolidRecords {
     pub material_rows: usize,
     /// The slot of each primitive of the scene, or [`NO_SLOT`].
     pub slots: Vec<u32>,
+    /// Numbers of spheres, boxes, cylinders and cones.
     pub counts: [u32; 4],
     /// Where each kind's proxies begin, rows.
     pub first_proxies: [u32; 4],
@@ -333,6 +335,7 @@ pub struct WhittedPushConstants {
     pub image_size: u32,
     /// Generations to trace.
     pub depth: u32,
+    /// Lights that give any light; those that give none follow them.
     pub light_count: u32,
     /// Half of the largest coordinate of a solid or of a ray's origin, kernel lengths.
     pub reach: f32,
