@@ -1,4 +1,4 @@
-// The eight proxies of a group, and what a packet finds out about them before it tries them.
+// The eight proxies of a group, and what a packet finds out about them before it tests them.
 
 // The rows from which the invocation hands its packet one of eight proxies.
 struct OwnOutline {

@@ -56,7 +56,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// Does it to its end; [`exit_code`] tells what a failure ends the program with.
+    /// Does it to its end; [`exit_code`] is what a failure ends the program with.
     pub fn run(&self) -> anyhow::Result<()> {
         match self {
             Self::View(args) => view::run(args),
@@ -179,7 +179,7 @@ fn nearest_ready(name: &str) -> Option<String> {
     (likeness(&nearest) >= LIKE).then_some(nearest)
 }
 
-/// Every file that `-o` asks for, of which it is known that it can be written; a name without an extension is a
+/// Every file that `-o` asks for, each known to be writable; a name without an extension is a
 /// folder's for one of each form, called `stem`.
 fn report_files(paths: &[PathBuf], stem: &str) -> anyhow::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
@@ -200,7 +200,7 @@ fn parse_seconds(text: &str) -> Result<Duration, String> {
     seconds.map(Duration::from_secs_f64).ok_or("it must be a number of seconds, 0.001 to 3600".to_owned())
 }
 
-/// Tells what validation had to say; a failure if it said anything about what the program does.
+/// Reports what validation had to say; a failure if it said anything about what the program does.
 fn refuse_messages(messages: &Messages) -> anyhow::Result<()> {
     for (remark, count) in messages.remarks() {
         eprintln!("no fault: {count} of {remark}");

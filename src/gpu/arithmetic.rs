@@ -43,7 +43,7 @@ pub struct Arithmetic {
     pub nan_preserve_declared: bool,
 }
 
-/// Of a device that calculates in that width; tried at the first call.
+/// Of a device that calculates in that width; tested at the first call.
 pub fn arithmetic(device: &Arc<Device>, width: FloatWidth) -> Result<Arithmetic, GpuError> {
     let place = match width {
         FloatWidth::F32 => 0,

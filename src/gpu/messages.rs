@@ -182,7 +182,7 @@ impl Messages {
         REMARKS.to_vec()
     }
 
-    /// Tells which layer's remarks to expect: a version as Vulkan encodes it.
+    /// Sets which layer's remarks to expect: a version as Vulkan encodes it.
     pub(super) fn set_layer_version(&self, version: u32) {
         self.book().layer = version;
     }

@@ -23,7 +23,7 @@ pub(super) fn unfit(result: vk::Result) -> Option<Fit> {
 }
 
 pub(super) fn choose_extent(capabilities: &vk::SurfaceCapabilitiesKHR, wanted: [u32; 2]) -> vk::Extent2D {
-    // The specification's word for «as you like».
+    // The specification's word for "as you like".
     if capabilities.current_extent.width != u32::MAX {
         return capabilities.current_extent;
     }

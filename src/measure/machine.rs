@@ -12,7 +12,7 @@ pub struct Machine {
     /// Name and version.
     pub driver: String,
     /// This program, its version and, where it was built in a clone, the commit that it was built on: edits since are
-    /// not told.
+    /// not recorded.
     pub program: String,
     /// How frames were shown in a window, by Vulkan's word, such as `mailbox`; `None` where none was.
     pub present_mode: Option<String>,

@@ -1,4 +1,4 @@
-//! What is told of repeated measurements of one time.
+//! Statistics of repeated measurements of one time.
 
 use serde::Serialize;
 
@@ -11,7 +11,8 @@ const FENCE_RANGES: f64 = 3.0;
 /// by a tick of its clock would else warn of the tick.
 const UNREMARKABLE_SHARE: f64 = 0.01;
 
-/// The middle of the sorted samples; of two middles, their mean rounded down. `None` without samples.
+/// The middle of the sorted samples; of an even number, the mean of both middle ones, rounded down. `None` without
+/// samples.
 pub fn median(samples_ns: &[u64]) -> Option<u64> {
     median_of_sorted(&sorted(samples_ns))
 }

@@ -29,7 +29,7 @@ impl Budget {
     /// Figures in minutes on a slow device, in half a minute on a fast one.
     pub const QUICK: Self = Self { time_ms: 3000, frames: 5, least_ms: 250 };
 
-    /// As long as told; a device that is through with ten thousand frames before has shown what it can, and its file
+    /// As long as asked; a device that is through with ten thousand frames before has shown what it can, and its file
     /// shall be of a size to be opened.
     pub fn lasting(time: Duration) -> Self {
         Self { time_ms: time.as_millis() as u64, frames: 10_000, least_ms: 0 }
@@ -45,7 +45,7 @@ impl Budget {
     }
 }
 
-/// Which of its two times a frame is judged by.
+/// Which of its two times counts for a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Clock {

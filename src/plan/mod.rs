@@ -110,7 +110,7 @@ pub enum PlanError {
 /// What was decided, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decision<T> {
-    /// In the unit that the plan's field tells.
+    /// In the unit that the plan's field names.
     pub choice: T,
     /// Also a line for people.
     pub reason: Reason,
@@ -257,9 +257,9 @@ impl Plan {
         !self.settings.boxes && self.counts.iter().any(|&count| Structure::over(count) != Structure::None)
     }
 
-    /// With [`Plan::rounding`] looked at where `f32` was asked for, too, which may take a second: for those who tell
+    /// With [`Plan::rounding`] looked at where `f32` was asked for, too, which may take a second: for those who show
     /// the [warning](Plan::warning). To be called with the scene that the plan was made for. Of what is no accurate
-    /// algorithm nothing is told: it is there to show what rounding does.
+    /// algorithm nothing is reported: it is there to show what rounding does.
     pub fn with_f32_tried(mut self, scene: &Scene) -> Self {
         let is_accurate = self.settings.algorithm.description().is_accurate;
         if is_accurate && self.precision.choice == Precision::F32 && self.rounding.is_none() {

@@ -125,7 +125,7 @@ pub enum Reason {
         /// The most that silhouettes move which the camera sees directly.
         shift_pixels: f64,
     },
-    /// Of so many pixels that were tried no more than a stray one changes by more than `tolerance`.
+    /// Of so many pixels that were tested no more than a stray one changes by more than `tolerance`.
     RoundingIsHarmless {
         /// Pixels all over the picture.
         tried: usize,
@@ -134,11 +134,11 @@ pub enum Reason {
     },
     /// See [`Rounding::Harmful`](super::Rounding).
     RoundingSpoils {
-        /// Those that were tried and change by more than the tolerance.
+        /// Those that were tested and change by more than the tolerance.
         wrong: usize,
         /// Pixels all over the picture.
         tried: usize,
-        /// Told in words by its `Display`.
+        /// Put in words by its `Display`.
         cause: Cause,
     },
     /// See [`Rounding::Unknown`](super::Rounding).

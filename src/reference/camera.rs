@@ -3,7 +3,7 @@ use glam::{DVec2, DVec3};
 use super::ray::Ray;
 use crate::scene::{Camera, Projection};
 
-/// The rays through a picture's pixel centres (docs/course-work.md, «Primary rays»).
+/// The rays through a picture's pixel centres (docs/course-work.md, "Primary rays").
 pub struct PrimaryRays {
     position: DVec3,
     /// Unit vectors in the world frame: to the left of the picture, up, and along the optical axis.

@@ -25,13 +25,13 @@ impl Primitive {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SolidKind {
-    /// Told by its centre and radius.
+    /// Given by its centre and radius.
     Sphere,
-    /// Told by its centre, half sizes and three angles.
+    /// Given by its centre, half sizes and three angles.
     Box,
-    /// Told by the centres of its bases and its radius.
+    /// Given by the centres of its bases and its radius.
     Cylinder,
-    /// Told by its apex, axis, height and angle.
+    /// Given by its apex, axis, height and angle.
     Cone,
 }
 

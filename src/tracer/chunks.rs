@@ -17,7 +17,7 @@ pub(super) struct Sweep {
     columns: u32,
     /// Rows of blocks, in their turn.
     rows: Vec<u32>,
-    /// Place in the sequence of all blocks.
+    /// Position in the sequence of all blocks.
     next: u64,
     left: u64,
 }
@@ -93,10 +93,11 @@ impl Pace {
     /// Before anything is known: little even at eight milliseconds each, more than the slowest kernel took on two
     /// cores.
     const FIRST_BLOCKS: u64 = 2;
-    /// The next rows may be dearer than the last: the pace rises no faster than this, and falls at once.
+    /// The next rows may be more expensive than the last: the pace rises no faster than this, and falls at once.
     const LARGEST_RISE: u64 = 4;
 
-    /// Of what a dear chunk tells about the next: rows differ tenfold, and after a cheap one comes a dear one again.
+    /// Decay of the estimated time from chunk to chunk: rows differ tenfold, and after a cheap one comes an expensive
+    /// one again.
     const MEMORY: f64 = 0.7;
 
     pub fn new() -> Self {

@@ -191,7 +191,7 @@ impl Tracer {
         Ok(gpu_time_ns)
     }
 
-    /// Tells whether pixels were traced otherwise before.
+    /// Returns whether pixels were traced otherwise before.
     fn trace_one_by_one(&mut self) -> Result<bool, TracerError> {
         let is_other = self.renderer.trace_one_by_one()?;
         if is_other {
@@ -200,7 +200,7 @@ impl Tracer {
         Ok(is_other)
     }
 
-    /// What was read back of a tile, into its place in `frame`.
+    /// What was read back of a tile, into its position in `frame`.
     fn take_pixels(&mut self, tile: Tile, frame: &mut Frame) -> Result<(), TracerError> {
         let idle = self.commands.idle()?;
         let pixels: &[[f32; 4]] = bytemuck::cast_slice(self.target.pixels.bytes(&idle)?);

@@ -34,7 +34,7 @@ pub struct ProbeRay {
     pub origin: DVec3,
     /// Of length 1.
     pub direction: DVec3,
-    /// Index of the one solid to try.
+    /// Index of the one solid to test.
     pub solid: usize,
     /// Where the ray begins.
     pub from: From,
@@ -49,7 +49,7 @@ pub struct ProbeHit {
     pub point: DVec3,
     /// Of the surface there, world frame.
     pub normal: DVec3,
-    /// Of the accurate model; the course kernel tells neither.
+    /// Of the accurate model; the course kernel reports neither.
     pub surface: Option<(Face, Side)>,
 }
 

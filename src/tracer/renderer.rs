@@ -11,8 +11,8 @@ use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, StorageImage};
 use crate::scene::Scene;
 
-/// What an algorithm does on a device. Scenes come in states: one is prepared on the host, taken up by a submission, and
-/// drawn until the next is taken up.
+/// What an algorithm does on a device. Scenes come in states: one is prepared on the host, taken up by a submission,
+/// and drawn until the next is taken up.
 pub(super) trait Algorithm {
     /// A scene as the kernels take it, for a picture of one size.
     type State: State;
@@ -45,8 +45,8 @@ pub(super) trait Algorithm {
     /// is not the first, those before are there.
     fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, state: &Self::State, sample: Sample);
 
-    /// From now on each pixel is traced by itself, not several by an invocation in turn; tells whether that is another
-    /// way than before, for which binding sets are out of date.
+    /// From now on each pixel is traced by itself, not several by an invocation in turn; returns whether that is
+    /// another way than before, for which binding sets are out of date.
     fn trace_one_by_one(&mut self) -> Result<bool, GpuError> {
         Ok(false)
     }

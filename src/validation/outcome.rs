@@ -36,14 +36,14 @@ pub struct Outcome {
     pub remarks: Vec<Remarked>,
 }
 
-/// A check that was tried out before it was relied on.
+/// A check that was tested before it was relied on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct TriedCheck {
     /// Name of the kind that asks for it.
     pub validation: &'static str,
-    /// Which should have told of the mistake.
+    /// Which should have reported the mistake.
     pub check: Check,
-    /// Whether a mistake made on purpose was told.
+    /// Whether a mistake made on purpose was reported.
     pub works: bool,
 }
 

@@ -81,9 +81,9 @@ pub enum Action {
     Quit,
 
     // ---- What a dialog is answered with.
-    /// To «there are unsaved changes».
+    /// To "there are unsaved changes".
     AnswerUnsaved(UnsavedAnswer),
-    /// To «the last run left unsaved work»: whether to take it up.
+    /// To "the last run left unsaved work": whether to take it up.
     AnswerRecover(bool),
     /// Away with a message, or with a question that is not answered.
     CloseDialog,

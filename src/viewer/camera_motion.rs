@@ -53,7 +53,7 @@ pub fn fly(camera: &mut Camera, wish: Flight, seconds: f64, speed: f64) {
 }
 
 /// Goes around `pivot` by a movement of the mouse (x to the right, y down) as if it took hold of the scene: the pivot
-/// keeps its distance and its place on the picture.
+/// keeps its distance and its position in the picture.
 pub fn orbit(camera: &mut Camera, pivot: DVec3, pixels: DVec2) {
     let pivot_in_camera = world_from_camera(camera).transpose() * (pivot - camera.position);
     turn(camera, pixels.x * ORBIT_RADIANS_PER_PIXEL, -pixels.y * ORBIT_RADIANS_PER_PIXEL);

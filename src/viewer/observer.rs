@@ -1,4 +1,4 @@
-//! What scripts that drive the window are told: a line of JSON for every frame that differs from the last.
+//! What scripts that drive the window read: a line of JSON for every frame that differs from the last.
 
 use std::io::{self, Write};
 
@@ -72,7 +72,7 @@ impl Observer {
 }
 
 impl Observation {
-    /// What the state alone tells; the rest is for the caller to fill in.
+    /// What the state alone says; the rest is for the caller to fill in.
     pub fn of(state: &State, shown: &Shown, pixels_per_point: f32) -> Self {
         let document = &state.document;
         let corner = shown.picture.min * pixels_per_point;

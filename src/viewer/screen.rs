@@ -21,7 +21,7 @@ pub enum ScreenError {
     /// Of the library that draws the widgets on the device.
     #[error("could not draw the widgets: {0}")]
     Widgets(#[from] RendererError),
-    /// Of what scripts are told.
+    /// Of what scripts read.
     #[error("could not write to standard output")]
     Observer(#[from] io::Error),
 }

@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn a_build_of_the_same_sources_is_what_the_program_has_in_it() {
-        // From where build.rs named them, for the paths are in what a debugger is told.
+        // From where build.rs named them, for the paths are in what a debugger gets.
         let builds = build_all(Path::new("glsl"));
         let own: Vec<_> = DRAWING.iter().flat_map(|(_, own)| *own).collect();
         assert_eq!(builds.len(), own.len());

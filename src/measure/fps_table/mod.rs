@@ -153,7 +153,7 @@ impl FpsTable {
         Self { machine, plan, cells: Vec::new() }
     }
 
-    /// The places of the table that lack a kernel, row after row: an interrupted table has whole rows.
+    /// Positions in the table that lack a kernel, row after row: an interrupted table has whole rows.
     pub fn missing(&self) -> Vec<(SolidKind, usize)> {
         let places = self.plan.counts.iter().flat_map(|&count| SolidKind::ALL.map(|kind| (kind, count)));
         places

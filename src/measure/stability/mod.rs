@@ -58,7 +58,7 @@ impl Measured {
     }
 }
 
-/// A kernel to be tried on a device.
+/// A kernel to be tested on a device.
 pub struct Subject {
     /// Where the kernel runs.
     pub device: Arc<Device>,
@@ -90,7 +90,7 @@ impl Subject {
 type Trial = Box<dyn Fn(&Subject) -> Result<Vec<Measured>, TracerError>>;
 type SceneTrial = Box<dyn Fn() -> Vec<Measured>>;
 
-/// How a case is tried.
+/// How a case is tested.
 enum Try {
     /// On a kernel; nothing measured: it is not for that kernel.
     Kernel(Trial),

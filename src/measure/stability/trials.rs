@@ -14,7 +14,7 @@ use crate::tracer::{Kernel, TracerError};
 pub struct Row {
     /// Of the case, such as `SC-1`.
     pub id: String,
-    /// `scene` where the loader is tried, before any kernel.
+    /// `scene` where the loader is tested, before any kernel.
     pub kernel: &'static str,
     /// Null for the loader.
     pub precision: Option<&'static str>,
@@ -58,7 +58,8 @@ pub struct Progress<'a> {
     pub id: &'a str,
 }
 
-/// Tries all cases on all kernels. Adds to `rows` as it goes, so that what is tried is there after a failure or a stop.
+/// Tests all cases on all kernels. Adds to `rows` as it goes, so that what is tested is there after a failure or a
+/// stop.
 ///
 /// # Errors
 /// The device fails, or `watch` breaks.

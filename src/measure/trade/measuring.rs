@@ -1,4 +1,4 @@
-//! Settings on a device: their pictures against the truth, their frames in pairs with the baseline's.
+//! Settings on a device: their pictures against ground truth, their frames in pairs with the baseline's.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -20,7 +20,7 @@ type KeepGoing<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 /// What goes on while a scene is measured.
 #[derive(Debug, Clone, Copy)]
 pub enum Step<'a> {
-    /// A part of a frame is drawn: a good place to stop.
+    /// A part of a frame is drawn: a good moment to stop.
     Tile,
     /// The next setting begins.
     Setting {
@@ -72,7 +72,7 @@ pub fn measure(
     Ok(())
 }
 
-/// A scene on a device with its truth and its baseline, warm.
+/// A scene on a device with its ground truth and its baseline, warm.
 struct Bench<'a> {
     device: &'a Arc<Device>,
     scene: &'a Scene,
@@ -207,7 +207,7 @@ impl<'a> Bench<'a> {
 
     fn error_of(&self, frame: &Frame) -> PictureError {
         let Truth { image, frame: truth } = self.truth;
-        // invariant: the truth and the frame are of one size, and no mask is empty.
+        // invariant: ground truth and the frame are of one size, and no mask is empty.
         let of_image = image_error(truth, frame, ErrorDomain::Linear, None).expect("pictures of one size");
         let colors: Vec<DVec3> = frame.pixels().iter().map(|pixel| DVec3::from_array(pixel.map(f64::from))).collect();
         let (tolerance, _) = tolerances(Precision::F32);

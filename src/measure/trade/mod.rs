@@ -1,7 +1,8 @@
-//! The price of accuracy: what every setting of a sweep takes and how far its picture is from the truth, on one device
+//! The price of accuracy: what every setting of a sweep takes and how far its picture is from ground truth, on one
+//! device
 //! and one scene.
 //!
-//! The truth is the reference's, of one of two pictures ([`Target`]). Times are GPU times of pairs of frames, one by
+//! Ground truth is the reference's, of one of two pictures ([`Target`]). Times are GPU times of pairs of frames, one by
 //! the baseline and one by the setting, so that whatever slows the machine down slows both: settings are compared by
 //! the ratio of a pair.
 
@@ -35,7 +36,7 @@ use crate::settings::RenderSettings;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Target {
-    /// Of the points in the middle of the pixels.
+    /// Of the centres of the pixels.
     #[default]
     Point,
     /// Of the pixels' areas: the mean of 8x8 points on a grid in each.
@@ -72,10 +73,10 @@ pub struct Conditions {
     pub questions: Vec<Question>,
 }
 
-/// How far a picture is from the truth.
+/// How far a picture is from ground truth.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PictureError {
-    /// Of linear values over all pixels, as `zerkalo compare` tells it.
+    /// Of linear values over all pixels, as `zerkalo compare` reports it.
     #[serde(flatten)]
     pub image: ImageError,
     /// Largest error of a channel off discontinuities; `None` where it is not finite.

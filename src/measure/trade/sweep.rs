@@ -1,4 +1,4 @@
-//! Which settings are tried on a scene. Pure: no Vulkan.
+//! Which settings are tested on a scene. Pure: no Vulkan.
 
 use super::{LeftOut, Target};
 use crate::algorithm::{ALGORITHMS, Algorithm, Description, Precision};
@@ -41,7 +41,7 @@ impl Axes {
             shading: Shading::Whitted,
             generations: vec![1, 2, 3, 4, 6, 8, 12, 16, 24, 32],
             samples: match target {
-                // More than the one in the middle are farther from what is there.
+                // More than the one in the centre are farther from what is there.
                 Target::Point => Vec::new(),
                 Target::Area => vec![2, 4, 8, 16, 32, 64],
             },
@@ -65,7 +65,7 @@ pub struct Planned {
 /// The settings to measure, the baseline first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
-    /// Exactly by the accurate kernel in `f32`: what `zerkalo render` does unless told otherwise, or the scene needs
+    /// Exactly by the accurate kernel in `f32`: what `zerkalo render` does by default, or the scene needs
     /// `f64`.
     pub baseline: Planned,
     /// Without the baseline; no two of them draw the same picture in the same way.

@@ -76,7 +76,7 @@ impl Line {
     }
 }
 
-/// A line about its place nearest to an axis through the anchor.
+/// A line about its point nearest to an axis through the anchor.
 #[derive(Debug, Clone, Copy)]
 pub struct AxisLine {
     pub line: Line,

@@ -46,7 +46,7 @@ impl F32Curve {
     }
 }
 
-/// A cylinder's body cut by its ends, whose places along the axis are `low` and `high`.
+/// A cylinder's body cut by its ends, whose positions along the axis are `low` and `high`.
 pub fn between_ends(body: Interval, at: &AxisLine, axis: DVec3, [low, high]: [f32; 2]) -> Interval {
     let end = |positive| Face::End { positive };
     let slab = Interval::between_planes(at.along, at.along_slope, (low, end(false)), (high, end(true)));

@@ -8,7 +8,7 @@ use crate::tracer::chunks::Pace;
 
 /// A part of a picture that was submitted.
 pub(super) struct Chunk {
-    /// Of which picture, by [`Canvas::begun`](super::Canvas).
+    /// Number of the picture, by [`Canvas::begun`](super::Canvas).
     pub picture: u64,
     /// Which of each pixel, from 0.
     pub sample: u32,
@@ -35,7 +35,7 @@ struct Place {
 
 /// The chunks in flight, and the times of the pictures that they make up.
 pub(super) struct Timing {
-    /// What each place of the ring has in flight, if anything.
+    /// What each slot of the ring has in flight, if anything.
     places: [Place; InFlight::COUNT],
     /// How many blocks a chunk is to have.
     pub pace: Pace,
@@ -78,7 +78,7 @@ impl Timing {
         std::mem::take(&mut self.finished)
     }
 
-    /// Reads the times of what was submitted from this place of the ring and has ended.
+    /// Reads the times of what was submitted from this slot of the ring and has ended.
     pub fn collect(&mut self, place: usize) -> Result<(), GpuError> {
         let Place { timer, chunk } = &mut self.places[place];
         let Some(chunk) = chunk.take() else { return Ok(()) };

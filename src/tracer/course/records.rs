@@ -1,6 +1,6 @@
-//! `repr(C)` mirrors of `glsl/course/interface.glsl`, filled from a scene. Vulkan's layout rules put a `vec3` on 16 bytes and
-//! let the next scalar follow it at 12; the `_pad` fields are the gaps. tests/kernels/record_layout.rs proves both
-//! sides alike.
+//! `repr(C)` mirrors of `glsl/course/interface.glsl`, filled from a scene. Vulkan's layout rules put a `vec3` on 16
+//! bytes and let the next scalar follow it at 12; the `_pad` fields are the gaps. tests/kernels/record_layout.rs proves
+//! both sides alike.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Mat3, Vec3};

@@ -33,7 +33,7 @@ impl Features {
     /// The specialization constants of `glsl/common/real.glsl`, `scene.glsl`, `camera.glsl` and `whitted.comp`.
     ///
     /// # Errors
-    /// The device fails when its arithmetic is tried.
+    /// The device fails when its arithmetic is tested.
     pub fn constants(
         &self,
         device: &Arc<Device>,

@@ -29,14 +29,14 @@ pub struct Level {
     pub orders: Vec<usize>,
 }
 
-/// The order of the solids, as places in `bounds`: neighbours in space are neighbours in it.
+/// The order of the solids, as indices into `bounds`: neighbours in space are neighbours in it.
 pub fn order(bounds: &[Bounds]) -> Vec<u32> {
     let mut places: Vec<(u32, DVec3)> = (0..).zip(bounds.iter().map(Bounds::middle)).collect();
     sort(&mut places);
     places.into_iter().map(|(place, _)| place).collect()
 }
 
-/// Cuts in two at a multiple of the largest power of eight that fits, across the longest side of the middles, and each
+/// Cuts in two at a multiple of the largest power of eight that fits, across the longest side of the centres, and each
 /// half again: no box of any level reaches over the cut.
 fn sort(places: &mut [(u32, DVec3)]) {
     if places.len() <= 2 {

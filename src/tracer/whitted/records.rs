@@ -1,7 +1,7 @@
 //! The records of `glsl/records/scene.glsl`, filled from a scene.
 //!
 //! Every record is rows of four reals, so they are computed in `f64` here and, for the `f32` kernel, narrowed number by
-//! number. What an `f32` cannot hold and the kernel needs (an axis, the middle between two ends) is told as a number
+//! number. What an `f32` cannot hold and the kernel needs (an axis, the midpoint of two ends) is given as a number
 //! and its error.
 
 use std::sync::Arc;
@@ -29,7 +29,7 @@ pub struct WhittedRecords {
     pub light_count: u32,
     /// Of all lights.
     pub light_sphere_count: u32,
-    /// What the scene asks for; which rows there are goes by that.
+    /// What the scene asks for; which rows there are depends on that.
     pub light: LightFeatures,
     /// Shared by pictures whose primitives and frame are the same.
     pub solids: Arc<SolidRecords>,
@@ -81,7 +81,7 @@ impl WhittedRecords {
     }
 }
 
-/// All that the kernel is told of the primitives.
+/// All that the kernel knows of the primitives.
 #[derive(Debug, Default, PartialEq)]
 pub struct SolidRecords {
     /// Kernel frame that all records are in.
@@ -119,12 +119,12 @@ struct Order {
 }
 
 /// An order is kept while its boxes have no more than this many times the surface that they had when it was chosen:
-/// what a ray looks into goes by that.
+/// what a ray looks into scales with it.
 const MOST_SURFACE: f64 = 1.5;
 
 impl SolidRecords {
     /// In the order of `last`, of the same frame, for kinds where that still fits: then solids that did not change have
-    /// the records that they had, in their places.
+    /// the records that they had, at their positions.
     pub(super) fn of(
         primitives: &[Primitive],
         light: LightFeatures,
@@ -280,7 +280,7 @@ fn solid_rows(solid: &Solid, frame: SceneSpace, precision: Precision) -> Vec<[f6
     }
 }
 
-/// `Material`, of which the last row is there only where some scene's material needs it.
+/// `Material`; its last row is there only where some scene's material needs it.
 fn material_rows_of(material: &Material, primitive: u32, solid: &Solid) -> [[f64; 4]; 3] {
     let is_plate = matches!(solid, Solid::Box { half_size, .. } if half_size.min_element() == 0.0);
     let refractive_index = if is_plate { 0.0 } else { material.refractive_index };
@@ -291,7 +291,7 @@ fn material_rows_of(material: &Material, primitive: u32, solid: &Solid) -> [[f64
     ]
 }
 
-/// `Light`, of which the last row is there only where some light fades with distance.
+/// `Light`; its last row is there only where some light fades with distance.
 fn light_rows(light: &Light, frame: SceneSpace) -> [[f64; 4]; 3] {
     let (position, radius) = frame.light(light);
     [row(position, radius), row(light.intensity, 0.0), row(light.fading(frame.scale), 0.0)]

@@ -79,7 +79,7 @@ pub fn number(ui: &mut Ui, group: &str, label: &str, value: f64, scale: &Scale) 
         // A scene may hold what a hand may not choose, and looking at it must not change it.
         .clamp_existing_to_range(false)
         .range(scale.typed.clone())
-        // The arrow keys go by the same number.
+        // The arrow keys step by the same number.
         .speed(if is_typing { step } else { step / DRAG_PER_STEP })
         .update_while_editing(false)
         .custom_formatter(|value, _| decimal(value))

@@ -1,6 +1,6 @@
 //! The window's widgets, drawn with egui: a pure function of what the window knows, answering what the user asks.
 //!
-//! Around the free middle, where the picture is, stand a menu bar, a status bar and the groups of the course's panel
+//! Around the free centre, where the picture is, stand a menu bar, a status bar and the groups of the course's panel
 //! with those that are new; over them come faults, help and dialogs. All speak [`Action`].
 
 mod camera;

@@ -275,7 +275,7 @@ impl Session {
         document.selection().or_else(seen).map_or(DVec3::ZERO, at)
     }
 
-    /// Which primitive is seen at a place of the window, pixels.
+    /// Which primitive is seen at a position of the window, pixels.
     fn pick(&self, at: DVec2) -> Option<usize> {
         let (corner, [width, height]) = self.picture_pixels();
         let (x, y) = (at.x - f64::from(corner[0]), at.y - f64::from(corner[1]));

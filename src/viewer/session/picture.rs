@@ -14,7 +14,8 @@ use crate::settings::RenderSettings;
 use crate::tracer::{self, Canvas, Settings, TracerError, limits_of};
 
 impl Session {
-    /// Kernels compiled meanwhile take the last ones' places; of a broken one is told, and its last good build goes on.
+    /// Kernels compiled meanwhile take the last ones' places; a broken one is reported, and its last good build goes
+    /// on.
     #[cfg(debug_assertions)]
     pub(super) fn take_kernels(&mut self) {
         let Some(builds) = self.shader_watch.as_ref().and_then(|watch| watch.take()) else { return };
@@ -74,7 +75,7 @@ impl Session {
             Kernel::Reference => return self.ask_for_reference(),
             // What may be left out is another thing for every scene.
             Kernel::BySetting(setting) => {
-                // With the precision chosen already, no pixels are tried for it.
+                // With the precision chosen already, no pixels are tested for it.
                 let setting = RenderSettings { precision: chosen.or(setting.precision), ..setting };
                 let plan = Plan::for_scene(scene, &setting, size, limits);
                 Settings::planned(&plan.map_err(|error| TracerError::Refused(error.to_string()))?)
