@@ -7,7 +7,7 @@ struct Entries {
 
 const int NOT_MET = 0x7FFFFFFF;
 
-// Of the box with that number, whose last three bits count.
+// Entry of the box with that number, whose last three bits count.
 int entry_of(Entries entries, uint place) {
     bool is_odd = (place & 1u) != 0u, is_second = (place & 2u) != 0u, is_late = (place & 4u) != 0u;
     int of_01 = is_odd ? entries.at[1] : entries.at[0], of_23 = is_odd ? entries.at[3] : entries.at[2];

@@ -17,7 +17,7 @@ float chord_rounding() { return 0.0; }
 // the way there and 2u for the squares. D is no more than that way and the radius; a proxy has the radius's part in it.
 const float DISTANCE_ERROR = 16.0 * FLOAT_ROUNDOFF;
 
-// Of a line in a sphere that is larger than the true one, by `error`, at most.
+// Chord of a line in a sphere that is larger than the true one, by `error`, at most.
 struct Chord {
     float ahead;        // its midpoint, from the ray's origin
     float radius;

@@ -25,7 +25,7 @@ struct TraversalRay {
     // Candidates up to this one have been tested.
     uint after_key;
     int after_group;
-    // Of a shadow ray, how large the coordinates of its light are; negative for other rays.
+    // Size of the coordinates of a shadow ray's light; negative for other rays.
     float target_size;
 };
 
@@ -43,7 +43,7 @@ const uint NO_KEY = 0x80000000u; // and all above
 // The limit of a shadow ray that met something before its light for sure.
 const float HIDDEN = -FAR;
 
-// Of a height above or below a surface, relative to the coordinates it comes from: four times SURFACE_ERROR of floats.
+// Error of a height above or below a surface, relative to its coordinates: four times SURFACE_ERROR of floats.
 const float HIDING_ERROR = 32.0 * FLOAT_ROUNDOFF;
 
 const float LEAST_SLOPE = 1e-12;

@@ -18,7 +18,7 @@ Light light_with_sphere(uint index, Light current_light) {
     return current_light;
 }
 
-// Of any light.
+// The same of any light.
 bool may_meet_a_light_sphere(Ray ray, Light current_light) {
     bool may_meet = false;
     uint i = 0u;

@@ -19,7 +19,7 @@ pub struct Commands {
     name: String,
     /// What the submission in flight uses; `None` where none is.
     in_flight: Option<Vec<Arc<dyn Any>>>,
-    /// Of the last [`Commands::run`] and those that went on from it.
+    /// Hazards of the last [`Commands::run`] and those that went on from it.
     hazards: Hazards,
     device: Arc<Device>,
 }

@@ -118,7 +118,7 @@ impl SetUpBy {
 pub struct Layer {
     /// As the loader lists it, `VK_LAYER_KHRONOS_validation`.
     pub name: String,
-    /// Of the Vulkan specification that it checks against.
+    /// Version of the Vulkan specification that it checks against.
     pub version: String,
     /// Its own number.
     pub implementation: u32,

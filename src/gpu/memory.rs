@@ -41,7 +41,7 @@ pub enum Texel {
 }
 
 impl Texel {
-    /// Of one texel, whichever it holds.
+    /// Bytes of one texel, whichever it holds.
     pub const BYTES: u64 = 16;
 
     /// Every Vulkan device must offer both for texel buffers.
@@ -86,7 +86,7 @@ impl BufferKind {
 /// A buffer; the host has mapped it, unless it is of [`BufferKind::Pixels`].
 pub struct Buffer {
     pub(super) raw: vk::Buffer,
-    /// Of [`BufferKind::Texels`]; else null.
+    /// View of [`BufferKind::Texels`]; else null.
     pub(super) view: vk::BufferView,
     pub(super) name: String,
     pub(super) kind: BufferKind,

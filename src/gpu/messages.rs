@@ -166,7 +166,7 @@ impl Messages {
         self.book().faults.get(count..).unwrap_or_default().to_vec()
     }
 
-    /// Of those that are faults.
+    /// Number of those that are faults.
     pub fn count(&self) -> usize {
         self.book().faults.len()
     }

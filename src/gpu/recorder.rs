@@ -23,7 +23,7 @@ pub struct Dispatch<'p> {
 }
 
 impl<'p> Dispatch<'p> {
-    /// Of a grid of two dimensions.
+    /// Dispatch of a grid of two dimensions.
     pub fn flat(pipeline: &'p Arc<ComputePipeline>, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> Self {
         Self { pipeline, first: [x, y, 0], groups: [width, height, 1] }
     }

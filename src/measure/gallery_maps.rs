@@ -36,7 +36,7 @@ pub struct KernelMap {
 pub struct Drawn {
     /// Error of each pixel as a colour, dark where it is small.
     pub map: Frame,
-    /// Of linear values, as `zerkalo compare` reports it.
+    /// Error of linear values, as `zerkalo compare` reports it.
     pub error: ImageError,
 }
 

@@ -36,7 +36,7 @@ pub struct Summary {
     /// interpolation (type 7 of Hyndman and Fan, Sample Quantiles in Statistical Packages, 1996).
     pub quartiles_ns: [f64; 2],
     pub mean_ns: f64,
-    /// Of the samples' distribution (n − 1 in the denominator); one sample has none.
+    /// Standard deviation of the samples' distribution (n − 1 in the denominator); one sample has none.
     pub stddev_ns: Option<f64>,
     /// Where in the samples those stand that are beyond [`Summary::fences_ns`] and not within 1 % of the median.
     pub outliers: Vec<usize>,
@@ -66,7 +66,7 @@ impl Summary {
         Some(summary)
     }
 
-    /// Of the middle half of the samples: what of the spread no single sample moves.
+    /// Range of the middle half of the samples: no single sample moves it.
     pub fn interquartile_range_ns(&self) -> f64 {
         self.quartiles_ns[1] - self.quartiles_ns[0]
     }
@@ -95,7 +95,7 @@ fn median_of_sorted(sorted: &[u64]) -> Option<u64> {
     Some(sorted[low].midpoint(sorted[high]))
 }
 
-/// Of at least one sample.
+/// Quantile of at least one sample.
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     let place = share * (sorted.len() - 1) as f64;
     let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);

@@ -49,16 +49,16 @@ impl Budget {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Clock {
-    /// Of the tracing alone, by the device's timestamps.
+    /// Time of the tracing alone, by the device's timestamps.
     Gpu,
-    /// From the call to the picture in the host's memory: submission, tracing and the copy.
+    /// Time from the call to the picture in the host's memory: submission, tracing and the copy.
     Wall,
 }
 
 /// What one frame took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FrameTime {
-    /// Of the tracing alone; `None` where the device has no timestamps.
+    /// Time of the tracing alone; `None` where the device has no timestamps.
     pub gpu_time_ns: Option<u64>,
     pub wall_time: Duration,
 }

@@ -75,7 +75,7 @@ impl Bounds {
 pub(super) struct Transport {
     background: DVec3,
     ambient_light: DVec3,
-    /// Of lights that give any light, the most that reaches a point, linear RGB.
+    /// Most that reaches a point from each light that gives any, linear RGB.
     intensities: Vec<DVec3>,
     /// Each once.
     materials: Vec<Material>,
@@ -320,7 +320,7 @@ fn longest(largest_gain: f64, weight: f64, depth: u32) -> u32 {
 
 /// What leaving out shadow rays can change.
 struct Shadows {
-    /// Of each light, the most that any surface sends back.
+    /// Most that any surface sends back of each light.
     direct: Vec<DVec3>,
     largest_gain: f64,
     /// Whether a path may go on by two rays.

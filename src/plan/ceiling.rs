@@ -7,7 +7,7 @@ use crate::scene::Scene;
 /// What one kind of hit can send back at most: its own light, and the weight of what it mirrors and lets through.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Surface {
-    /// Of all rays of the next generation together.
+    /// Weight of all rays of the next generation together.
     pub gain: f64,
     /// Linear RGB.
     pub local_radiance: DVec3,

@@ -106,12 +106,12 @@ impl LightFeatures {
         }
     }
 
-    /// Of a material's record.
+    /// Rows of a material's record.
     pub(crate) fn material_rows(self) -> usize {
         if self.shininess || self.media != Media::None { 3 } else { 2 }
     }
 
-    /// Of a light's record.
+    /// Rows of a light's record.
     pub(crate) fn light_rows(self) -> usize {
         if self.attenuation { 3 } else { 2 }
     }

@@ -102,7 +102,7 @@ pub enum PlanError {
         bytes: u64,
         /// Bytes.
         limit: u64,
-        /// Of the kernel, which decides how large most records are.
+        /// Precision of the kernel, which decides how large most records are.
         precision: Precision,
     },
 }
@@ -127,7 +127,7 @@ pub struct Plan {
     pub kernel: Kernel,
     /// Solids of each kind, in the order of [`SolidKind::ALL`], without those too small for the precision.
     pub counts: [usize; 4],
-    /// Of the scene, dark ones too.
+    /// Lights of the scene, dark ones too.
     pub all_lights: usize,
     /// Whether no box is rotated against the world's axes.
     pub axis_aligned_boxes: Decision<bool>,
@@ -150,7 +150,7 @@ pub struct Plan {
     pub close_up: Option<f64>,
     /// What rounding to `f32` does to the picture; `None` where the precision was asked for and that was not looked at.
     pub rounding: Option<Rounding>,
-    /// Of each kind.
+    /// Structure over the solids of each kind.
     pub structures: Decision<[Structure; 4]>,
     /// Pixels of a workgroup along x and y.
     pub workgroup: Decision<[u32; 2]>,

@@ -38,7 +38,7 @@ pub(super) fn outside_by(solid: &Solid, point: DVec3) -> f64 {
     }
 }
 
-/// Of any length but zero, whose square need not be a number.
+/// Unit vector along one of any length but zero, whose square need not be a number.
 pub(super) fn unit(vector: DVec3) -> DVec3 {
     (vector / vector.abs().max_element()).normalize()
 }

@@ -25,8 +25,8 @@ const AROUND: u64 = 4;
 /// What a ray may have to do among some primitives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TraversalCost {
-    /// Of one search and the solve after it, in half of the boxes, times how many of these at most; `None` among more
-    /// primitives than are looked at.
+    /// Iterations of one search and the solve after it, in half of the boxes, times how many of these at most; `None`
+    /// among more primitives than are looked at.
     iterations: Option<u64>,
 }
 

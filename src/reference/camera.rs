@@ -10,7 +10,7 @@ pub struct PrimaryRays {
     left: DVec3,
     up: DVec3,
     ahead: DVec3,
-    /// Of the centred window in the plane at distance 1.
+    /// Half extent of the centred window in the plane at distance 1.
     half_extent: DVec2,
     projection: Projection,
     picture_size: DVec2,

@@ -47,7 +47,7 @@ impl Solids {
         self.reachable(origin_surface).any(|(_, solid, origin)| solid.hides(light_position, &ray, origin))
     }
 
-    /// Of the solids that a ray begins in, the one that it leaves first; a tie goes to the lowest index.
+    /// The solid that a ray leaves first of those that it begins in; a tie goes to the lowest index.
     pub(super) fn innermost(&self, ray: &Ray, origin_surface: OriginSurface) -> Option<u32> {
         let exits = self.reachable(origin_surface).filter_map(|(index, solid, origin)| {
             let hit = solid.first_hit(ray, origin)?;

@@ -83,7 +83,7 @@ impl<T> Section<T> {
 /// The error maps of a scene of the gallery.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedMaps {
-    /// Of the scene, as in the gallery.
+    /// Name of the scene, as in the gallery.
     pub name: String,
     /// What the scene shows, in one line.
     pub english: String,

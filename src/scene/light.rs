@@ -7,7 +7,7 @@ pub struct Light {
     pub position: DVec3,
     /// Linear RGB, not limited to 1.
     pub intensity: DVec3,
-    /// Of that sphere, world units; 0: it is not seen. A camera inside does not see it either.
+    /// Radius of that sphere, world units; 0: it is not seen. A camera inside does not see it either.
     pub radius: f64,
     /// K of equation 1.16, world units: a point at distance d gets the intensity divided by d + K. `None`: it gets all
     /// of it from any distance.
@@ -26,7 +26,7 @@ impl Light {
         DVec3::new(largest.recip(), unit / largest, constant / largest)
     }
 
-    /// Of the course's (`R_LSOURCE`), world units.
+    /// Radius of the course's light sphere (`R_LSOURCE`), world units.
     pub const COURSE_RADIUS: f64 = 0.01;
 }
 

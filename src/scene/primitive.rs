@@ -73,7 +73,7 @@ pub enum Solid {
     Cylinder {
         /// Centres of the two bases.
         ends: [DVec3; 2],
-        /// Of both bases; world units.
+        /// Radius of both bases; world units.
         radius: f64,
     },
     /// One nappe from the apex to the base disk at `height` along `axis`.

@@ -119,7 +119,7 @@ fn power_of_two_below(number: f64) -> f64 {
     number.log2().floor().clamp(-1022.0, 1022.0).exp2()
 }
 
-/// Of pairs of a number and its weight; 0 of none.
+/// Interquartile mean of pairs of a number and its weight; 0 of none.
 fn interquartile_mean(mut weighted: Vec<(f64, f64)>) -> f64 {
     weighted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     // Relative to the largest, so that their sum is a number.

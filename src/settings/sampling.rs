@@ -10,8 +10,8 @@
 //! 3/k)·u·M, and the later steps leave k/n of it: after n samples the mean is off by at most ((n + 1)/2 + 3)·u·M, to
 //! first order.
 
-/// Of a pixel, along each side: a sample's ray is that of a pixel of a picture that is so many times as wide and high.
-/// Odd, so that the central one's ray is the pixel's own.
+/// Sub-pixels along each side of a pixel: a sample's ray is that of a pixel of a picture so many times as wide and
+/// high. Odd, so that the central one's ray is the pixel's own.
 pub const SUBPIXELS: u32 = 65;
 
 /// Most samples a pixel.
@@ -99,7 +99,7 @@ const PLACES: [[u8; 2]; 64] = [
 /// How finely a picture is traced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sampling {
-    /// Of each pixel, 1 to [`MAX_SAMPLES`].
+    /// Samples of each pixel, 1 to [`MAX_SAMPLES`].
     pub samples: u32,
     /// Size of the traced picture against the one shown, [`MIN_SCALE`] to 1.
     pub scale: f64,
@@ -132,13 +132,13 @@ impl Sampling {
         }
     }
 
-    /// Of the picture that is traced for one of `size`, pixels.
+    /// Size of the picture that is traced for one of `size`, pixels.
     pub fn traced_size(self, size: [u32; 2]) -> [u32; 2] {
         size.map(|side| ((f64::from(side) * self.scale).round() as u32).clamp(1, side))
     }
 }
 
-/// Of the sample with this index, sub-pixels from the pixel's top left.
+/// Position of the sample with this index, sub-pixels from the pixel's top left.
 pub fn sample_place(index: u32) -> [u32; 2] {
     PLACES[index as usize].map(u32::from)
 }

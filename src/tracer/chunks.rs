@@ -11,9 +11,9 @@ const BLOCK: [u32; 2] = [WORKGROUP[0], MOST_PIXELS * WORKGROUP[1]];
 /// not yet traced anew lies between rows that are, and chunks of it cost much the same.
 #[derive(Debug)]
 pub(super) struct Sweep {
-    /// Of the picture, pixels.
+    /// Size of the picture, pixels.
     size: [u32; 2],
-    /// Of blocks.
+    /// Blocks in a row.
     columns: u32,
     /// Rows of blocks, in their turn.
     rows: Vec<u32>,
@@ -23,7 +23,7 @@ pub(super) struct Sweep {
 }
 
 impl Sweep {
-    /// Of a picture of so many pixels, with nothing left to do.
+    /// A sweep of a picture of so many pixels, with nothing left to do.
     pub fn new(size: [u32; 2]) -> Self {
         let [columns, rows] = [0, 1].map(|axis| size[axis].div_ceil(BLOCK[axis]));
         let bits = u32::BITS - rows.saturating_sub(1).leading_zeros();

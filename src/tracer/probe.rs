@@ -32,7 +32,7 @@ pub enum From {
 pub struct ProbeRay {
     /// World frame.
     pub origin: DVec3,
-    /// Of length 1.
+    /// Unit vector, world frame.
     pub direction: DVec3,
     /// Index of the one solid to test.
     pub solid: usize,
@@ -47,9 +47,9 @@ pub struct ProbeHit {
     pub t: f64,
     /// World frame.
     pub point: DVec3,
-    /// Of the surface there, world frame.
+    /// Normal of the surface there, world frame.
     pub normal: DVec3,
-    /// Of the accurate model; the course kernel reports neither.
+    /// Face and side by the accurate model; the course kernel reports neither.
     pub surface: Option<(Face, Side)>,
 }
 

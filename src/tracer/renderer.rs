@@ -54,7 +54,7 @@ pub(super) trait Algorithm {
 
 /// What a driver asks of a state.
 pub(super) trait State: PartialEq {
-    /// Of each pixel.
+    /// Samples of each pixel.
     fn samples(&self) -> u32;
 
     /// Linear RGB.
@@ -147,7 +147,7 @@ pub(super) trait Renderer {
     fn bind(&self, picture: &Resource) -> Result<Option<Arc<BindingSet>>, GpuError>;
     /// Samples a pixel of the scene taken up; `None` without one.
     fn samples(&self) -> Option<u32>;
-    /// Of the scene prepared last, linear RGB; `None` without one.
+    /// Background of the scene prepared last, linear RGB; `None` without one.
     fn background(&self) -> Option<[f32; 3]>;
     /// See [`Algorithm::record`]; nothing without a scene.
     fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, sample: Sample);

@@ -30,7 +30,7 @@ pub struct Settings {
     /// in place of what [suits the scene](crate::plan::TraversalCost::pixels_per_invocation). What that may not change
     /// is tested with it.
     pub pixels: Option<u32>,
-    /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See
+    /// Samples of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See
     /// [`Sampling`].
     pub samples: u32,
     /// Size of the picture that is traced against the one asked for, to which it is brought by bilinear interpolation;

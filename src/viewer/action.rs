@@ -93,7 +93,7 @@ pub enum Action {
     SetPreferences(Preferences),
     /// Draws from now on and, but for a settings' file, at the start of the next run.
     SetKernel(Kernel),
-    /// Of the accurate kernel.
+    /// Sampling of the accurate kernel.
     SetSampling(Sampling),
     /// How much of the light model is drawn, but by the course's kernel and a settings' file.
     SetShading(Shading),

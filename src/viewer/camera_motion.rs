@@ -15,7 +15,7 @@ const ORBIT_RADIANS_PER_PIXEL: f64 = 0.005;
 /// From the plane normal to `up`: at 90° left and right would be undefined.
 const LARGEST_PITCH_DEGREES: f64 = 89.0;
 
-/// Of the distance to the pivot that one step towards it leaves.
+/// Share of the distance to the pivot that one step towards it leaves.
 const DISTANCE_LEFT_BY_STEP: f64 = 0.9;
 
 /// World units; from the pivot itself no step would lead away again.

@@ -16,16 +16,16 @@ pub struct Widget {
     pub name: String,
     pub value: String,
     pub is_disabled: bool,
-    /// Of its corners on the window, pixels: left, top, right, bottom.
+    /// Corners on the window, pixels: left, top, right, bottom.
     pub rect: [f64; 4],
 }
 
 /// One frame of the window.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Observation {
-    /// Of the window, pixels.
+    /// Size of the window, pixels.
     pub window: [u32; 2],
-    /// Of the picture's corner, pixels.
+    /// Position of the picture's corner, pixels.
     pub picture_corner: [u32; 2],
     pub picture_size: [u32; 2],
     /// Whether all of the picture is of the scene as it is now.

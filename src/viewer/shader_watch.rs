@@ -28,7 +28,7 @@ const DRAWING: [(&str, &[&Shader]); 2] = [
     ),
 ];
 
-/// Of each build of [`DRAWING`]: the shader, or the compiler's messages.
+/// Outcome of each build of [`DRAWING`]: the shader, or the compiler's messages.
 pub type Outcomes = Vec<Result<Shader, String>>;
 
 /// Watches a folder of sources, such as `glsl/`; dropped, it stops.

@@ -43,14 +43,14 @@ pub struct Plan {
     pub width: u32,
     /// Pixels.
     pub height: u32,
-    /// Of a ray.
+    /// Generations of a ray.
     pub generations: u32,
     /// Kernels, each once.
     #[serde(rename = "kernels")]
     pub algorithms: Vec<Algorithm>,
     /// Numbers of solids, ascending.
     pub counts: Vec<usize>,
-    /// Of each kernel in each cell.
+    /// Budget of each kernel in each cell.
     pub budget: Budget,
     /// Whether the validation layers watch, which takes its time.
     pub validation: bool,
@@ -78,7 +78,7 @@ impl Plan {
         (10..=100).step_by(10).collect()
     }
 
-    /// Of solids.
+    /// Smallest number of solids.
     pub fn fewest(&self) -> usize {
         self.counts.first().copied().unwrap_or_default()
     }
@@ -108,9 +108,9 @@ impl Plan {
 /// What one kernel makes of one number of one kind of solids.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cell {
-    /// Of solids.
+    /// Kind of the solids.
     pub kind: SolidKind,
-    /// Of solids.
+    /// Number of solids.
     pub count: usize,
     /// Kernel that drew it.
     #[serde(rename = "kernel")]
@@ -179,7 +179,7 @@ impl FpsTable {
         if has_gpu_times && !self.plan.in_window { Clock::Gpu } else { Clock::Wall }
     }
 
-    /// Of the median frames of a kernel.
+    /// Speeds by the median frames of a kernel.
     pub fn speeds(&self, algorithm: Algorithm, clock: Clock) -> Speeds {
         let mut speeds = Speeds::default();
         for cell in self.cells.iter().filter(|cell| cell.algorithm == algorithm) {

@@ -67,8 +67,8 @@ pub struct Subject {
     /// With so few rays and pixels that the whole catalogue takes a minute.
     pub is_quick: bool,
     probe: OnceLock<Probe>,
-    /// Of the last picture, with its size: cases in a row often need the same pipeline, which takes longer to make than
-    /// a picture to draw.
+    /// Tracer of the last picture, with its size: cases in a row often need the same pipeline, which takes longer to
+    /// make than a picture to draw.
     tracer: RefCell<Option<([u32; 2], Tracer)>>,
 }
 
@@ -149,7 +149,7 @@ impl Case {
 pub struct Verdict {
     /// Everything measured of the case; never empty.
     pub measured: Vec<Measured>,
-    /// Of them, the one nearest to its bound or farthest beyond.
+    /// Measurement nearest to its bound or farthest beyond.
     pub worst: Measured,
 }
 

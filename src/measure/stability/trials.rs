@@ -12,7 +12,7 @@ use crate::tracer::{Kernel, TracerError};
 /// What came of a case on a kernel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
-    /// Of the case, such as `SC-1`.
+    /// Name of the case, such as `SC-1`.
     pub id: String,
     /// `scene` where the loader is tested, before any kernel.
     pub kernel: &'static str,
@@ -20,7 +20,7 @@ pub struct Row {
     pub precision: Option<&'static str>,
     /// Whether all measurements of the case passed.
     pub pass: bool,
-    /// Of all that was measured, what comes nearest to its bound or is farthest beyond.
+    /// Name of the measurement that comes nearest to its bound or is farthest beyond.
     pub what: &'static str,
     /// Null where it is not a number.
     pub measured: f64,
@@ -54,7 +54,7 @@ pub struct Progress<'a> {
     /// Trials.
     pub done: usize,
     pub all: usize,
-    /// Of the case that is next.
+    /// Name of the case that is next.
     pub id: &'a str,
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct Candidate {
     /// Largest error of a linear channel, measured; infinite where it is not known.
     pub error: f64,
-    /// Of a frame.
+    /// Time of a frame.
     pub time_ns: f64,
     /// Proven bound on what is left out.
     pub bound: Option<f64>,

@@ -26,7 +26,7 @@ pub enum Step<'a> {
     Setting {
         /// Number of settings measured before.
         done: usize,
-        /// Of the setting that is next, in words.
+        /// Name of the setting that is next, in words.
         name: &'a str,
     },
 }
@@ -92,7 +92,7 @@ enum Outcome {
 const PATIENCE: Duration = Duration::from_secs(20);
 const PATIENCE_OF_BUDGET: u32 = 20;
 
-/// Of one tracer with the baseline.
+/// Times of one tracer with the baseline.
 #[derive(Default, Clone)]
 struct Pairs {
     baseline_samples_ns: Vec<u64>,

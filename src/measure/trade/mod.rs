@@ -36,10 +36,10 @@ use crate::settings::RenderSettings;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Target {
-    /// Of the centres of the pixels.
+    /// Colours at the centres of the pixels.
     #[default]
     Point,
-    /// Of the pixels' areas: the mean of 8x8 points on a grid in each.
+    /// Colours of the pixels' areas: the mean of 8x8 points on a grid in each.
     Area,
 }
 
@@ -65,7 +65,7 @@ pub struct Conditions {
     pub target: Target,
     /// Which pixels decide.
     pub counted: Counted,
-    /// Of a setting's pairs.
+    /// Budget of a setting's pairs.
     pub budget: Budget,
     /// Whether the validation layers watch, which takes its time.
     pub validation: bool,
@@ -76,7 +76,7 @@ pub struct Conditions {
 /// How far a picture is from ground truth.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PictureError {
-    /// Of linear values over all pixels, as `zerkalo compare` reports it.
+    /// Error of linear values over all pixels, as `zerkalo compare` reports it.
     #[serde(flatten)]
     pub image: ImageError,
     /// Largest error of a channel off discontinuities; `None` where it is not finite.
@@ -97,7 +97,7 @@ impl PictureError {
         largest.unwrap_or(f64::INFINITY)
     }
 
-    /// Of the discontinuity pixels, those that differ; 0 where there are none.
+    /// Share of the discontinuity pixels that differ; 0 where there are none.
     pub fn differing_share(&self) -> f64 {
         self.differing_discontinuity_pixels as f64 / self.discontinuity_pixels.max(1) as f64
     }
@@ -113,7 +113,7 @@ pub struct Point {
     pub bound: Option<f64>,
     /// Against the target.
     pub error: PictureError,
-    /// Of pairs of frames, in order: the baseline's and the setting's.
+    /// Times of pairs of frames, in order: the baseline's and the setting's.
     pub baseline_samples_ns: Vec<u64>,
     /// GPU or wall time of the setting's frames, by the scene's clock.
     pub samples_ns: Vec<u64>,
@@ -145,7 +145,7 @@ pub struct SceneTrade {
     pub solids: usize,
     /// Generations of a ray by the scene.
     pub max_depth: u32,
-    /// Of the samples.
+    /// Clock of the samples.
     pub clock: Clock,
     /// In the order of measuring; the baseline, measured against itself, is the first.
     pub points: Vec<Point>,
@@ -169,7 +169,7 @@ impl SceneTrade {
         }
     }
 
-    /// Of all the baseline's frames.
+    /// Median of all the baseline's frames; `None` where nothing is measured.
     pub fn baseline_ns(&self) -> Option<u64> {
         median(&self.points.iter().flat_map(|point| point.baseline_samples_ns.iter().copied()).collect::<Vec<_>>())
     }

@@ -18,11 +18,11 @@ pub struct Axes {
     pub generations: Vec<u32>,
     /// Samples a pixel, besides 1.
     pub samples: Vec<u32>,
-    /// Of the traced picture, besides 1.
+    /// Scales of the traced picture, besides 1.
     pub scales: Vec<f64>,
     /// What errors are measured against.
     pub target: Target,
-    /// Of all settings.
+    /// Shading model of all settings.
     pub shading: Shading,
 }
 

@@ -11,7 +11,7 @@ use crate::frame::{Frame, FrameError};
 use crate::reference::{self, Image64, PrimaryRays, RenderError, World};
 use crate::scene::Scene;
 
-/// Of a pixel's area, the points along each side that stand for it.
+/// Points along each side of a pixel that stand for its area.
 const AREA_SIDE: u32 = 8;
 
 /// A true picture.

@@ -77,7 +77,7 @@ pub enum Near {
     },
     /// The camera, where it is nearer to that surface than any other primitive is wide.
     Camera {
-        /// Of that surface from it, or less.
+        /// Distance from the camera to that surface, or less.
         distance: f64,
     },
     /// Nothing is, but curved mirrors magnify it.

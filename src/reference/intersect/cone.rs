@@ -10,7 +10,7 @@ pub struct Cone {
     /// Unit vector from the apex to the base.
     axis: DoubleDouble3,
     height: DoubleDouble,
-    /// Of the half-angle.
+    /// Sine of the half-angle.
     sin: DoubleDouble,
     cos: DoubleDouble,
 }

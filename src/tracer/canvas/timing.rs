@@ -21,7 +21,7 @@ pub(super) struct Chunk {
 /// The time of a picture that came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Finished {
-    /// Of all its chunks.
+    /// Sum over all its chunks.
     pub gpu_time_ns: u64,
     /// Which of each pixel, from 0: the first is a picture by itself, the others are added to it while it rests.
     pub sample: u32,
@@ -73,7 +73,7 @@ impl Timing {
         self.places.iter().any(|place| place.chunk.is_some())
     }
 
-    /// Of the pictures that came to their end since the last call.
+    /// Pictures that came to their end since the last call.
     pub fn take_finished(&mut self) -> Vec<Finished> {
         std::mem::take(&mut self.finished)
     }

@@ -31,7 +31,7 @@ pub const BINDINGS: [BindingKind; 5] =
 /// A scene as the kernel takes it.
 #[derive(Debug, PartialEq)]
 pub(super) struct CourseScene {
-    /// Of the whole picture.
+    /// Record of the whole picture.
     frame: CoursePushConstants,
     primitives: PrimitiveRecords,
     workgroup: [u32; 2],

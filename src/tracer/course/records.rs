@@ -29,7 +29,7 @@ pub struct SphereRecord {
     pub center: [f32; 3],
     /// World lengths.
     pub radius: f32,
-    /// Of the whole surface.
+    /// Material of the whole surface.
     pub material: MaterialRecord,
 }
 
@@ -47,7 +47,7 @@ pub struct BoxRecord {
     pub _pad1: u32,
     /// Columns, each padded to 16 bytes.
     pub box_from_world: [[f32; 4]; 3],
-    /// Of the whole surface.
+    /// Material of the whole surface.
     pub material: MaterialRecord,
 }
 
@@ -63,7 +63,7 @@ pub struct CylinderRecord {
     pub end_b: [f32; 3],
     /// World lengths.
     pub radius: f32,
-    /// Of the whole surface.
+    /// Material of the whole surface.
     pub material: MaterialRecord,
 }
 
@@ -79,7 +79,7 @@ pub struct ConeRecord {
     pub axis: [f32; 3],
     /// From the apex to the base, world lengths.
     pub height: f32,
-    /// Of the whole surface.
+    /// Material of the whole surface.
     pub material: MaterialRecord,
 }
 

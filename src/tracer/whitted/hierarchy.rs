@@ -25,7 +25,7 @@ pub fn level_count(solids: usize) -> usize {
 pub struct Level {
     /// Bounds of each group of the level below, in order.
     pub boxes: Vec<Bounds>,
-    /// Of each group of boxes, the axis along which they lie one behind the other.
+    /// Axis along which the boxes of a group lie one behind the other, for each group.
     pub orders: Vec<usize>,
 }
 

@@ -25,9 +25,9 @@ use crate::settings::sampling::sample_place;
 pub struct WhittedRecords {
     /// `View`, then the lights.
     pub view_and_lights: Vec<[f64; 4]>,
-    /// Of lights that give any light: the first ones.
+    /// Number of lights that give any light: the first ones.
     pub light_count: u32,
-    /// Of all lights.
+    /// Number of all lights.
     pub light_sphere_count: u32,
     /// What the scene asks for; which rows there are depends on that.
     pub light: LightFeatures,
@@ -92,7 +92,7 @@ pub struct SolidRecords {
     pub rows: [Vec<[f64; 4]>; 4],
     /// By slot.
     pub materials: Vec<[f64; 4]>,
-    /// Of each.
+    /// Rows of each material.
     pub material_rows: usize,
     /// The slot of each primitive of the scene, or [`NO_SLOT`].
     pub slots: Vec<u32>,
@@ -100,14 +100,14 @@ pub struct SolidRecords {
     pub counts: [u32; 4],
     /// Where each kind's proxies begin, rows.
     pub first_proxies: [u32; 4],
-    /// Of boxes over the solids.
+    /// Levels of boxes over the solids.
     pub levels: [u32; 4],
     /// No box is rotated.
     pub are_boxes_axis_aligned: bool,
     orders: [Order; 4],
 }
 
-/// Of a primitive that is too small for the kernel.
+/// Slot of a primitive that is too small for the kernel.
 pub const NO_SLOT: u32 = u32::MAX;
 
 /// How the solids of a kind lie.
@@ -347,13 +347,13 @@ pub struct WhittedPushConstants {
     pub min_shadowed: f32,
     /// In the pixel, sub-pixels from its top left.
     pub sample_place: [u32; 2],
-    /// Of each pixel, that the picture is the mean of.
+    /// Samples of each pixel that the picture is the mean of.
     pub samples_before: u32,
-    /// Of this one in the mean.
+    /// Weight of this sample in the mean.
     pub sample_weight: f32,
     /// Pixels, width | height << 16.
     pub tile_size: u32,
-    /// Of all lights.
+    /// Number of all lights.
     pub light_sphere_count: u32,
 }
 

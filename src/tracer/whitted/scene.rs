@@ -22,7 +22,7 @@ impl Precision {
         }
     }
 
-    /// Of four numbers.
+    /// Bytes of a row of four numbers.
     pub(super) fn row_bytes(self) -> u64 {
         match self {
             Self::F32 => 16,
@@ -155,10 +155,10 @@ pub(super) struct WhittedScene {
     pub kernel: Kernel,
     pub records: WhittedRecords,
     pub features: Features,
-    /// Of the whole picture in one tile.
+    /// Uniforms of the whole picture in one tile.
     pub view_uniforms: ViewUniforms,
     pub workgroup: [u32; 2],
-    /// Of each pixel.
+    /// Samples of each pixel.
     pub samples: u32,
     /// Linear RGB.
     pub background: [f32; 3],
@@ -216,7 +216,7 @@ impl WhittedScene {
         upload(device, &self.records, self.kernel.precision())
     }
 
-    /// Of all arrays.
+    /// Bytes of all arrays.
     pub fn bytes(&self) -> u64 {
         let rows: usize = self.records.buffers().iter().map(|(_, rows)| rows.len()).sum();
         rows as u64 * self.kernel.precision().row_bytes() + self.records.solids.proxies.len() as u64 * Texel::BYTES

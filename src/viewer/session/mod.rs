@@ -44,14 +44,14 @@ pub(super) struct Session {
     egui: egui_winit::State,
     /// `None` only while a lost device is being replaced.
     screen: Option<Screen>,
-    /// Of every device that was.
+    /// Messages of every device that was.
     messages: Messages,
     picture: egui::Rect,
     frame_times: FrameTimes,
     /// When the widgets are to be drawn again.
     widgets_due: Option<Instant>,
     refusal: Option<String>,
-    /// Of the accurate kernel; `None` where another draws.
+    /// Choice for the accurate kernel; `None` where another draws.
     chosen: Option<Chosen>,
     /// Whether that is for the scene as it is, where it counts.
     is_precision_known: bool,

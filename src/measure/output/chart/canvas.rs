@@ -49,7 +49,7 @@ pub struct Marker {
     pub is_hollow: bool,
 }
 
-/// Of a marker, pixels of the chart.
+/// Reach of a marker, pixels of the chart.
 const REACH: i32 = 6;
 
 pub type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
