@@ -12,7 +12,7 @@
 //  5. MAX_DEPTH is a specialization constant; the loop of B.3 also ends at `frame.depth`, so that fewer generations
 //     need no new pipeline.
 //  6. The background of B.3 is `frame.background` (the listing's constant is the scene format's default).
-//  7. The order of rounding is written down as the goldens have it (rounding.glsl; tried on lavapipe alone): `dot`,
+//  7. The order of rounding is written down as the goldens have it (rounding.glsl; tested on lavapipe alone): `dot`,
 //     `normalize`, `reflect` and `length` are redefined, and B.2 turns into a box's frame by `rotate(m, v)` for m * v.
 //  8. The line breaks and indents that the transcription lost are restored.
 #include "course/interface.glsl"

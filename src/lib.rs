@@ -1,6 +1,6 @@
 //! A low-level Vulkan ray tracer for simple solids with adjustable reflection.
 //!
-//! The modules stand in the order the data takes: a [`scene`] is read or edited, a [`plan`] tells what it requires of
+//! The modules stand in the order the data takes: a [`scene`] is read or edited, a [`plan`] states what it requires of
 //! one of the [algorithms](algorithm), a [`tracer`] draws it, as [`settings`] say, on a device that [`gpu`] opened, or
 //! the [`reference`](mod@reference) on the CPU, the picture is a [`frame`], which is saved and [measured](measure);
 //! [`validation`] has all of it drawn under Vulkan's validation layers, and a [`report`] shows what came of it; each

@@ -54,7 +54,7 @@ impl WholeFile {
         }
         let mut builder = tempfile::Builder::new();
         builder.prefix(".zerkalo-").suffix(".tmp");
-        // A temporary file is for its owner alone unless told otherwise; the umask still applies to this.
+        // A temporary file is for its owner alone by default; the umask still applies to this.
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
         let temporary = builder.tempfile_in(folder)?;

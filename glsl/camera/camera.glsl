@@ -5,7 +5,7 @@ layout(constant_id = 19) const uint PIXELS = 1u;
 
 // A pixel's colour is the mean of several samples, each added by a run of its own; see src/tracer/sampling.rs.
 layout(constant_id = 18) const bool HAS_SAMPLES = false;
-// Of a pixel, along each side.
+// Sub-pixels of a pixel, along each side.
 const uint SUBPIXELS = 65u;
 
 // Two numbers below 2^16.

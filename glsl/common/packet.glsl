@@ -18,7 +18,7 @@ uint bits_of_packet(uint mine) {
 bool any_of_packet(bool mine) { return bits_of_packet(uint(mine)) != 0u; }
 vec3 of_packet(vec3 mine, uint k) { return subgroupShuffle(mine, k); }
 
-// Row `first + stride * k`, k < 8, of which this invocation has fetched the one with its own number.
+// Row `first + stride * k`, k < 8: this invocation has fetched the one whose k is its own number.
 #define OWN_ROW(rows, first, stride) texelFetch(rows, int((first) + (stride) * gl_SubgroupInvocationID))
 #define ROW_OF_EIGHT(own, rows, first, stride, k) subgroupShuffle(own, k)
 #else

@@ -138,7 +138,7 @@ Real largest_component(Real3 v) {
     return max(size.x, max(size.y, size.z));
 }
 
-// Of any length whose square is a normal number. `inversesqrt` is left out: a device may make it coarse.
+// Unit vector along one whose square is a normal number. `inversesqrt` is left out: a device may make it coarse.
 Real3 unit(Real3 v) {
     precise Real3 result = v / sqrt(dot(v, v));
     return result;

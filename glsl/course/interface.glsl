@@ -1,5 +1,6 @@
 // What host and kernels share: bindings, records, push constants.
-// src/tracer/course/records.rs mirrors every struct; glsl/probe/layout.comp echoes them so that a test proves both alike.
+// src/tracer/course/records.rs mirrors every struct; glsl/probe/layout.comp echoes them so that a test proves both
+// alike.
 
 // The course work's limit over all kinds together; every array has room for one kind taking it whole.
 // The largest array, 100 boxes of 112 B, stays under the 16 KiB of uniform buffer that every Vulkan device offers.

@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The accurate kernel's exact sums and products on pairs of vectors, with what a device's own division, square root,
-// fma and tests for NaN and infinity make of them.
+// The accurate kernel's compensated sums and products on pairs of vectors, with what a device's own division, square
+// root, fma and tests for NaN and infinity make of them.
 layout(local_size_x = 64) in;
 
 #include "common/real.glsl"

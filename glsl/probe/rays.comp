@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 // Rays in, hits out: the accurate kernel's intersections one by one, by the kernel's own include files. Each ray is
-// tried on one solid alone.
+// tested against one solid alone.
 layout(local_size_x = 64) in;
 
 #include "records/records.glsl"
@@ -29,9 +29,9 @@ uint key_alone(uint slot, TraversalRay traversal) {
 
 struct ProbeRay {
     Real3 origin;
-    Real slot;        // of the solid to try
+    Real slot;        // of the solid to test
     Real3 direction;  // unit
-    Real origin_surface;   // of which primitive's surface the origin lies on: < 0 none, 0 this solid's, 1 another's
+    Real origin_surface;   // whose surface the origin lies on: < 0 none, 0 this solid's, 1 another's
     Real face;        // of that surface
     Real inside;      // 1 where the ray leaves it inwards
     Real unused_0;

@@ -21,7 +21,7 @@ layout(push_constant, std430) uniform Push { WhittedPushConstants pushed; };
 // Read once: within a loop a CPU driver would fetch a number for each invocation by itself, turn after turn.
 WhittedPushConstants frame = pushed;
 
-// Of each kind, which takes whole groups of eight.
+// First slot of each kind, which takes whole groups of eight.
 uvec4 first_slots() {
     uvec4 counts = frame.counts + 7u & ~7u;
     return uvec4(0u, counts.x, counts.x + counts.y, counts.x + counts.y + counts.z);

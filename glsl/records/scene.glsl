@@ -3,9 +3,9 @@
 //
 // Scene space: the world frame with its origin among the solids, times a power of two that brings the farthest
 // coordinate of a solid, and of the camera, below 2. Within a kind the solids lie in the order of its hierarchy; the
-// kinds lie behind each other, and a primitive's place in that row is its slot.
+// kinds lie behind each other, and a primitive's index in that row is its slot.
 
-// Solids are told from an anchor: their middle, and in a close-up their point nearest to the camera; cones from their
+// Solids are given relative to an anchor: their centre, in a close-up their point nearest to the camera; cones, their
 // apex.
 
 // A round surface about an anchor, in a close-up: offset + slope . x + |x|^2 / (2 * radius) = 0.
@@ -24,7 +24,7 @@ struct Sphere {
 struct Box {
     Real3 anchor;
     Real size;            // the largest half size
-    Real3 high;           // the places of the upper faces along the axes, from the anchor
+    Real3 high;           // positions of the upper faces along the axes, from the anchor
     Real3 low;            // and of the lower ones
     Real3 axis_x;         // + axis_x_error: unit, scene space
     Real3 axis_y;
@@ -38,7 +38,7 @@ struct Cylinder {
     Real3 anchor;         // + anchor_error
     Real radius;
     Real3 anchor_error;
-    Real high;            // the place of the second end along the axis, from the anchor
+    Real high;            // position of the second end along the axis, from the anchor
     Real low;             // and of the first
     Real3 axis;           // + axis_error: unit, from the first end to the second
     Real size;            // the larger of radius and half length; in a close-up of radius and length
@@ -106,8 +106,8 @@ layout(constant_id = 10) const uint BOX_LEVELS = 0u;
 layout(constant_id = 11) const uint CYLINDER_LEVELS = 0u;
 layout(constant_id = 12) const uint CONE_LEVELS = 0u;
 // A close-up, of solids beside which the way to the camera is short: the frame's origin is the camera, and anchors are
-// the places of spheres, boxes and axes nearest to it, so that what rounding loses goes by how far off things are, and
-// not by the solid's size.
+// the points of spheres, boxes and axes nearest to it, so that the rounding error scales with the distance of things,
+// not with the solid's size.
 layout(constant_id = 20) const bool IS_CLOSE_UP = false;
 // What there is not, or the plan has left out.
 layout(constant_id = 13) const bool HAS_HIGHLIGHTS = true;

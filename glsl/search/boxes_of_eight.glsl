@@ -7,7 +7,7 @@ struct Entries {
 
 const int NOT_MET = 0x7FFFFFFF;
 
-// Of the one with that number, of which the last three bits count.
+// Entry of the box with that number, whose last three bits count.
 int entry_of(Entries entries, uint place) {
     bool is_odd = (place & 1u) != 0u, is_second = (place & 2u) != 0u, is_late = (place & 4u) != 0u;
     int of_01 = is_odd ? entries.at[1] : entries.at[0], of_23 = is_odd ? entries.at[3] : entries.at[2];
@@ -64,8 +64,8 @@ uint first_box_row(uint kind) {
     return frame.proxies[kind] + proxy_rows * padded(frame.counts[kind]);
 }
 
-// One level are up to sixteen boxes, two groups, and every search enters them all. Where there is no second, its place
-// is taken by the first, of which then nothing counts.
+// A single level is up to sixteen boxes, two groups, and every search enters them all. Where there is no second group,
+// the first is fetched twice, and nothing of it counts the second time.
 uint second_group(uint count) { return eighths(count) > 8u ? 16u : 0u; }
 
 // Of a kind that is the only one, they are read once.

@@ -1,10 +1,10 @@
-// The search through the solids of a kind, included once for each: KIND is the kind, OF_KIND makes a function's name for
-// it, LEVELS is the number of levels over the solids, PROXY_ROWS how many rows a proxy takes. Where IS_DEAR, a proxy's
-// key takes so long to find that a packet first tries a bounding sphere around the solid.
+// The search through the solids of a kind, included once for each: KIND is the kind, OF_KIND makes a function's name
+// for it, LEVELS is the number of levels over the solids, PROXY_ROWS how many rows a proxy takes. Where IS_DEAR, a
+// proxy's key takes so long to find that a packet first tests a bounding sphere around the solid.
 //
 // The solids lie in such an order that each eight that begin with a multiple of eight are near each other, and so are
-// each eight of these groups, and so on: level h holds a box around every 8^h of them, and where a box lies tells what
-// is in it. src/tracer/whitted/hierarchy.rs makes the order, and the boxes.
+// each eight of these groups, and so on: level h holds a box around every 8^h of them, and the position of a box gives
+// its contents. src/tracer/whitted/hierarchy.rs makes the order, and the boxes.
 
 #if KIND == SPHERES
 #define OF_KIND(function) function##_sphere

@@ -5,7 +5,7 @@
 // for each dot product and 4u for the direction's length, each at most once, and as much again for the sum.
 const float CHORD_ERROR = 32.0 * FLOAT_ROUNDOFF;
 #if REAL_BITS == 64
-// And by the rounding of middle and ray to float, at distances of up to 4 * frame.reach.
+// And by the rounding of centre and ray to float, at distances of up to 4 * frame.reach.
 float chord_rounding() { return 64.0 * FLOAT_ROUNDOFF * frame.reach * frame.reach; }
 #else
 // The rounding of the camera is little against their place errors.
@@ -17,9 +17,9 @@ float chord_rounding() { return 0.0; }
 // the way there and 2u for the squares. D is no more than that way and the radius; a proxy has the radius's part in it.
 const float DISTANCE_ERROR = 16.0 * FLOAT_ROUNDOFF;
 
-// Of a line in a sphere that is larger than the true one, by `error`, at most.
+// Chord of a line in a sphere that is larger than the true one, by `error`, at most.
 struct Chord {
-    float ahead;        // its middle, from the ray's origin
+    float ahead;        // its midpoint, from the ray's origin
     float radius;
     float half_squared; // negative where there is none
     float error;
@@ -35,7 +35,7 @@ Chord chord_of(vec4 a, TraversalRay traversal) {
 }
 
 // a: centre, radius; larger by DISTANCE_ERROR times the radius and by a place error, for the rounding of the centre and
-// the ray to float (7u * reach in place and as much by the direction, of the double kernel; of the float kernel the
+// the ray to float (7u * reach in position and as much by the direction, of the double kernel; of the float kernel the
 // camera's 4u). Of a proxy of nothing, negative.
 uint key_of_sphere(vec4 a, vec4 b, TraversalRay traversal, int entry, uint k) {
     Chord chord = chord_of(a, traversal);
@@ -75,7 +75,7 @@ void tighten_by_box(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout
     vec3 enters = middle - reach, leaves = middle + reach;
     float near = max(enters.x, max(enters.y, enters.z)), far = min(leaves.x, min(leaves.y, leaves.z));
     bool is_deep = b.w == 1.0 && near > traversal.plane_error && far - near > 2.0 * traversal.plane_error;
-    // The smallest of three, of which one is right.
+    // Smallest of three; one of them is right.
     vec3 slope = abs(traversal.direction);
     float sine = min(slope.x, min(slope.y, slope.z));
     tighten(is_there && is_deep, near + traversal.plane_error, sine, 1.0, traversal, found);
@@ -83,11 +83,11 @@ void tighten_by_box(vec4 a, vec4 b, bool is_there, TraversalRay traversal, inout
 
 // A bounding sphere around the cylinder that encloses a solid: its centre, and the square of its radius, which is
 // negative where there is no solid. The radius is larger by what rounding may put a line off that: DISTANCE_ERROR of
-// the distance, at most 7 * frame.reach, are 7 place errors, proxies are wrong by up to 4, and the ray's place and
-// direction by one.
+// the distance, at most 7 * frame.reach, are 7 place errors, proxies are wrong by up to 4, and the ray's position
+// and direction by one.
 vec4 sphere_around(vec3 center, float radius, float half_length, bool is_there) {
     float larger = 16.0 * place_error(), squared = radius * radius + half_length * half_length;
-    // (r + larger)^2, of which r is no more than the sum of both; rounded a few times.
+    // (r + larger)^2, r being no more than the sum of both; rounded a few times.
     squared += (2.0 * larger) * (radius + half_length + larger) + (16.0 * FLOAT_ROUNDOFF) * squared;
     return vec4(center, is_there ? squared : -FAR);
 }
@@ -98,11 +98,11 @@ int misses_sphere(vec4 bounding_sphere, TraversalRay traversal) {
     float middle = dot(to_center, traversal.direction);
     vec3 across = to_center - middle * traversal.direction;
     float half_squared = bounding_sphere.w - dot(across, across);
-    // Behind the ray's origin it is where its middle is by more than the radius.
+    // Behind the ray's origin it is where its centre is by more than the radius.
     return if_negative(half_squared) | if_negative(bounding_sphere.w + middle * abs(middle));
 }
 
-// a: middle between the ends, radius; b: unit axis, half length.
+// a: midpoint of the ends, radius; b: unit axis, half length.
 uint key_of_cylinder(vec4 a, vec4 b, TraversalRay traversal, int entry, uint k) {
     vec3 from_middle = traversal.origin - a.xyz;
     float closest_t = -dot(from_middle, traversal.direction);
@@ -161,7 +161,7 @@ uint key_of_cone(vec4 a, vec4 b, TraversalRay traversal, int entry, uint k) {
     float by_square = 1.0 / square, by_along = 1.0 / along_slope;
     float side_error = (64.0 * place_error()) * abs(by_square), end_error = (64.0 * place_error()) * abs(by_along);
     float side_middle = -product * by_square;
-    // Between the roots, or beyond one of them: on the safe side either way.
+    // Between the roots, or beyond one of them: conservative either way.
     float side_reach = sqrt(max(crosses ? discriminant + error : discriminant - error, 0.0)) * abs(by_square);
     bool is_down = along_slope > 0.0;
     float side_near = crosses ? side_middle - side_reach : (is_down ? side_middle + side_reach : -FAR);

@@ -1,4 +1,4 @@
-// The eight proxies of a group, and what a packet finds out about them before it tries them.
+// The eight proxies of a group, and what a packet finds out about them before it tests them.
 
 // The rows from which the invocation hands its packet one of eight proxies.
 struct OwnOutline {
@@ -7,7 +7,7 @@ struct OwnOutline {
     vec4 b;
 };
 
-// Of a group of the kind whose proxies begin at a row.
+// Outline of the invocation's own proxy in a group of the kind whose proxies begin at a row.
 OwnOutline own_outline(uint kind_first, uint group, uint rows) {
     uint first = kind_first + 8u * rows * group;
     vec4 a = OWN_ROW(proxies, first, rows);

@@ -22,15 +22,15 @@ struct TraversalRay {
     vec3 inverse;       // 1 / direction, finite
     float plane_error;  // of the t at which a box's face is met, as that face may be off by 4 place errors
     uint skipped;       // slot that cannot be met, or NOTHING
-    // Candidates up to this one have been tried.
+    // Candidates up to this one have been tested.
     uint after_key;
     int after_group;
-    // Of a shadow ray, how large the coordinates of its light are; negative for other rays.
+    // Size of the coordinates of a shadow ray's light; negative for other rays.
     float target_size;
 };
 
-// The first candidate that a search finds. Its key is a lower bound of t by its bits, of which the last three are its
-// place in its group of eight slots; candidates with one key come in the order of their groups.
+// The first candidate that a search finds. Its key is a lower bound of t by its bits; the last three are its index
+// in its group of eight slots; candidates with one key come in the order of their groups.
 struct Found {
     uint key;
     int group;
@@ -43,7 +43,7 @@ const uint NO_KEY = 0x80000000u; // and all above
 // The limit of a shadow ray that met something before its light for sure.
 const float HIDDEN = -FAR;
 
-// Of a height above or below a surface, relative to the coordinates it comes from: four times SURFACE_ERROR of floats.
+// Error of a height above or below a surface, relative to its coordinates: four times SURFACE_ERROR of floats.
 const float HIDING_ERROR = 32.0 * FLOAT_ROUNDOFF;
 
 const float LEAST_SLOPE = 1e-12;
@@ -52,7 +52,7 @@ TraversalRay traversal_ray_of(Ray ray) {
     TraversalRay traversal;
     traversal.origin = vec3(ray.origin);
     traversal.direction = vec3(ray.direction);
-    // A direction changed by 1e-12 misses its place by less than a place error, and 1/0 with all that comes of it is
+    // A direction changed by 1e-12 misses its target by less than a place error, and 1/0 with all that comes of it is
     // not.
     vec3 slope = mix(traversal.direction, vec3(LEAST_SLOPE), lessThan(abs(traversal.direction), vec3(LEAST_SLOPE)));
     traversal.inverse = 1.0 / slope;
@@ -68,17 +68,17 @@ TraversalRay traversal_ray_of(Ray ray) {
 // All bits where a number is negative.
 int if_negative(float number) { return floatBitsToInt(number) >> 31; }
 
-// A candidate of place `k` in its group that may be met from `t` on, and from its box's entry, unless `never` has a
+// A candidate of index `k` in its group that may be met from `t` on, and from its box's entry, unless `never` has a
 // bit. A box that is entered behind a candidate so has none in it that comes before that one.
 uint key_of(float t, int never, int entry, uint k) {
     return (uint(max(floatBitsToInt(t), entry)) & ~7u | k) | uint(never);
 }
 
-// What a search makes of a group's keys, each less the first that counts: what has been tried becomes larger than all
+// What a search makes of a group's keys, each less the first that counts: what has been tested becomes larger than all
 // others by that.
 struct Group {
     int index;
-    uint skipped;   // place of what cannot be met, if it is in this group
+    uint skipped;   // index of what cannot be met, if it is in this group
     uint first_key;
     uint end;       // of keys that count, less the first
     uint key;       // the least

@@ -1,8 +1,8 @@
-// A line about its place nearest to an axis through the anchor: what is across a thin solid must not drown in the
+// A line about its point nearest to an axis through the anchor: what is across a thin solid must not drown in the
 // rounding of what is along it.
 
 struct AxisLine {
-    // Recentred once more: `closest` is the place nearest to the axis, if that is within reach of the anchor.
+    // Recentred once more: `closest` is the point nearest to the axis, if that is within reach of the anchor.
     Line line;
     Real along;         // coordinate on the axis there ...
     Real along_slope;   // ... and its change per length of the direction
@@ -22,7 +22,7 @@ AxisLine about_axis(Line line, Real3 axis, Real3 axis_error, Real reach) {
     at.slope = across_slope;
     at.slope_squared = dot(across_slope, across_slope);
 
-    // A line that meets the solid does so within reach of its place closest to the anchor.
+    // A line that meets the solid does so within reach of its point closest to the anchor.
     precise Real unlimited = -dot(line.closest.value, across_slope) / at.slope_squared;
     bool is_recentred = COMPENSATION != 0 && at.slope_squared > 0.0;
     Real s_nearest = is_recentred ? clamp(unlimited, -reach, reach) : Real(0.0);
@@ -55,7 +55,7 @@ Real along_at(AxisLine at, Real s) {
 }
 
 // One step of Newton's towards a plane across the axis, with the distance from it rounded about once: far from its
-// place the slab's quotient has lost some u of the reach.
+// point the slab's quotient has lost some u of the reach.
 Real nearer_to_plane(AxisLine at, Real3 axis, Real3 axis_error, Real plane, Real s) {
 #if COMPENSATION
     Sum3 place = add_scaled(at.line.closest, s, at.line.direction, Real3(0.0));

@@ -42,7 +42,7 @@ Real depth(Box box, Real3 from_anchor) {
     return min(below.x, min(below.y, below.z));
 }
 
-// The same in a close-up, each face by so many times what the place of a point may be off across it.
+// The same in a close-up, each face by so many times what the position of a point may be off across it.
 Real depth_with_errors(Box box, Real3 from_anchor, Real place, Real errors) {
     Real3 x = abs(from_anchor);
     Real3 across = x;

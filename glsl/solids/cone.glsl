@@ -38,7 +38,7 @@ Interval nappe(Cone cone, AxisLine at) {
     Real low, high;
     Interval inside;
     if (a == 0.0) {
-        // Parallel to the side. The sign of b, the same all along the line, tells whether it enters this nappe; b = 0
+        // Parallel to the side. The sign of b, the same all along the line, shows whether it enters this nappe; b = 0
         // is the line through the apex, along the side itself.
         bool enters = b != 0.0 ? (b < 0.0) == ahead_is_down : c == 0.0;
         precise Real root = b != 0.0 ? -c / (b + b) : Real(0.0);
@@ -99,7 +99,7 @@ Real depth(Cone cone, Real3 from_anchor) {
     return min(to_side, min(along, cone.height - along));
 }
 
-// The same in a close-up, and so many times what the place of a point may be off.
+// The same in a close-up, and so many times what the position of a point may be off.
 Real depth_with_errors(Cone cone, Real3 from_anchor, Real place, Real errors) {
     return depth(cone, from_anchor) + errors * SURFACE_ERROR * (place + largest_component(from_anchor));
 }

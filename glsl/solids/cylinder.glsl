@@ -48,7 +48,7 @@ Real depth(Cylinder cylinder, Real3 from_anchor) {
     return min(cylinder.radius - sqrt(dot(radial, radial)), cylinder.high - abs(along));
 }
 
-// The same in a close-up, each face by so many times what the place of a point may be off across it.
+// The same in a close-up, each face by so many times what the position of a point may be off across it.
 Real depth_with_errors(Cylinder cylinder, Real3 from_anchor, Real place, Real errors) {
     Real along = dot(from_anchor, cylinder.axis);
     Real3 radial = from_anchor - along * cylinder.axis;

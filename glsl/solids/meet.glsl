@@ -1,7 +1,7 @@
 // Included once for each kind, with SOLID its type and SOLID_LINE what `line_of` makes for it.
 
 // The first point ahead of the ray's origin: where the ray enters, or leaves if it starts inside. An origin within
-// rounding of the surface is on it. That is judged by depths: beside an edge the face that the ray leaves by need not
+// rounding of the surface is on it. That is decided by depths: beside an edge the face that the ray leaves by need not
 // be the one that its origin is on.
 bool meet(SOLID solid, Ray ray, uint origin, uint own_face, out Hit hit) {
     SOLID_LINE at = line_of(solid, ray);
@@ -18,8 +18,8 @@ bool meet(SOLID solid, Ray ray, uint origin, uint own_face, out Hit hit) {
     hit.face = hit.inside ? inside.far_face : inside.near_face;
     bool is_ahead = is_met && hit.t > 0.0;
     if (hit.inside && origin != OWN_INSIDE) {
-        // Depth is concave along a chord: at its middle it is at least half of the greatest. A free origin is exact: a
-        // chord deeper than the error counts, less what the depth itself is off.
+        // Depth is concave along a chord: at its midpoint it is at least half of the greatest. A free origin is exact:
+        // a chord deeper than the error counts, less what the depth itself is off.
         Real least_depth = origin == FREE ? 0.25 * position_error : position_error;
         Real start = max(inside.near, -line_start(at.line));
         Real3 middle = at.line.closest.value + (0.5 * (start + inside.far)) * at.line.direction;

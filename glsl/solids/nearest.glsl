@@ -34,7 +34,7 @@ bool meet(uint slot, Ray ray, OriginSurface origin_surface, out Hit hit) {
     uint origin = origin_of(origin_surface, slot);
     uvec4 first = first_slots();
     bool is_met = false;
-    // A kind alone needs not be told from others.
+    // A kind alone needs not be distinguished from others.
     if (HAS_SPHERES && (IS_ONLY_KIND || slot < first.y)) {
         is_met = meet(sphere(slot), ray, origin, origin_surface.face, hit);
     } else if (HAS_BOXES && (IS_ONLY_KIND || slot < first.z)) {
@@ -48,7 +48,7 @@ bool meet(uint slot, Ray ray, OriginSurface origin_surface, out Hit hit) {
     return is_met;
 }
 
-// Whether two hits may lie in one plane, for all that their numbers tell. Each t is off by at most
+// Whether two hits may lie in one plane, as far as their numbers show. Each t is off by at most
 // (u * t + 4u * size) / |cosine| (docs/numerics.md, T); unit normals are off by 4u each.
 bool are_coplanar(Hit a, Hit b, Ray ray) {
     if (dot(a.normal, b.normal) < 1.0 - 16.0 * UNIT_ROUNDOFF) return false;

@@ -81,7 +81,7 @@ Line recentred(Ray ray, Real3 anchor, Real3 anchor_error) {
     return line;
 }
 
-// The ray's parameter at a place of its recentred line.
+// The ray's parameter at a position on its recentred line.
 Real t_at(Line line, Real s) {
     return exact_sum(line.t_closest, line.t_rest, s, line.t_error);
 }
@@ -120,7 +120,7 @@ Interval between_planes(Real offset, Real slope, Real low, uint low_face, Real h
 }
 
 // Roots of a*s^2 + 2*b*s + c, a != 0, given the root of b^2 - a*c. One of them -b may cancel in: then it comes from the
-// product of the roots, c/a, unless what c itself lost, being a difference of squares of which `c_scale` is the larger,
+// product of the roots, c/a, unless what c itself lost, being a difference of squares, `c_scale` the larger of them,
 // would weigh more.
 void ordered_roots(Real a, Real b, Real c, Real c_scale, Real discriminant_root, out Real low, out Real high) {
     bool is_b_positive = b > 0.0;

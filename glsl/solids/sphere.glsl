@@ -34,7 +34,7 @@ Real depth(Sphere sphere, Real3 from_anchor) {
     return sphere.radius - sqrt(dot(from_anchor, from_anchor));
 }
 
-// The same in a close-up, and so many times what the place of a point may be off.
+// The same in a close-up, and so many times what the position of a point may be off.
 Real depth_with_errors(Sphere sphere, Real3 from_anchor, Real place, Real errors) {
     Real size = largest_component(from_anchor) + abs(sphere.curve.offset);
     return depth(sphere.curve, sphere.radius, Sum3(from_anchor, Real3(0.0))) + errors * SURFACE_ERROR * (place + size);

@@ -1,5 +1,5 @@
-// Where a path goes on from a surface: mirrored, refracted or both. Of both the heavier goes first and the other waits, so
-// that no more wait than there are generations.
+// Where a path goes on from a surface: mirrored, refracted or both. Of both the heavier goes first and the other waits,
+// so that no more wait than there are generations.
 
 layout(constant_id = 25) const uint MOST_PENDING = 1u;
 

@@ -1,8 +1,8 @@
 // Light spheres, which primary rays see.
 
-// Whether the ray may meet the light sphere: in float, on the safe side. Lights may lie beyond frame.reach, so that the
-// rounding of their centres goes by the distance too: u of it, and u more for that of a double's direction, besides the
-// 16u of DISTANCE_ERROR.
+// Whether the ray may meet the light sphere: in float, conservatively. Lights may lie beyond frame.reach, so that the
+// rounding of their centres scales with the distance too: u of it, and u more for that of a double's direction, besides
+// the 16u of DISTANCE_ERROR.
 bool may_meet_light_sphere(Ray ray, Light light) {
     vec3 to_center = vec3(light.position) - vec3(ray.origin), direction = vec3(ray.direction);
     float ahead = dot(to_center, direction);
@@ -18,7 +18,7 @@ Light light_with_sphere(uint index, Light current_light) {
     return current_light;
 }
 
-// Of any light.
+// The same of any light.
 bool may_meet_a_light_sphere(Ray ray, Light current_light) {
     bool may_meet = false;
     uint i = 0u;
@@ -32,7 +32,7 @@ bool may_meet_a_light_sphere(Ray ray, Light current_light) {
 }
 
 // Where the ray meets the nearest light sphere, and its intensity; at LARGEST, nothing. Of a ray that does not look for
-// light spheres, nothing is told, and it takes a single iteration.
+// light spheres, nothing is reported, and it takes a single iteration.
 Real light_sphere_ahead(Ray ray, Light current_light, bool looks, out Real3 intensity) {
     intensity = Real3(0.0);
     Real t = LARGEST;
@@ -41,7 +41,7 @@ Real light_sphere_ahead(Ray ray, Light current_light, bool looks, out Real3 inte
         iterations++;
         Light sphere_light = light_with_sphere(i, current_light);
         Hit light_sphere;
-        // Told from its centre in a close-up, too.
+        // Relative to its centre in a close-up, too.
         Curve about_center = Curve(Real3(0.0), -0.5 * sphere_light.sphere_radius, Real3(0.0));
         Sphere sphere = Sphere(sphere_light.position, sphere_light.sphere_radius, about_center);
         bool is_met = meet(sphere, ray, FREE, CURVED, light_sphere);

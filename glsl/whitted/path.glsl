@@ -11,7 +11,7 @@ const uint TO_MEDIUM = 5u; // to find out what a point lies in
 // How far the search for what a ray meets has come.
 struct SearchState {
     float limit;     // nothing beyond it is of interest
-    uint after_key;  // candidates up to this one have been tried
+    uint after_key;  // candidates up to this one have been tested
     int after_group;
     bool is_own_due; // the solid that the ray leaves inwards is to be solved first
 };
@@ -35,7 +35,7 @@ struct Path {
     Material material;
     Real3 incident;       // the direction of the ray that met it
     Real3 local_radiance;
-    uint light_index;     // of the first light that has not been tried
+    uint light_index;     // of the first light that has not been tested
     // Refractive index of the innermost other solid about the ray's origin: of the one that the ray straight on leaves
     // first, where, and which that is.
     Real medium_outside;

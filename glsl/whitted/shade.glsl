@@ -3,7 +3,7 @@
 // Overflow stops at the largest number, so that no sum becomes infinite or, by inf - inf, NaN.
 Real3 limited(Real3 color) { return min(color, Real3(LARGEST)); }
 
-// Of length 1 to some units in the last place.
+// Mirrored direction, of length 1 to some units in the last place.
 Real3 mirrored(Real3 direction, Real3 normal) {
     precise Real3 result = direction - (2.0 * dot(direction, normal)) * normal;
     return result;
@@ -33,7 +33,8 @@ Real power(Real x, uint n_256) {
 // The direction of the refracted ray by Snell's law, for a unit direction and a unit normal towards the side that it
 // comes from; refractive indices of that side and of the other. False where all is reflected.
 //
-// With r = from / to and c the cosine here, the cosine there is sqrt(1 - r^2 * (1 - c^2)) = sqrt((r * c)^2 - (r^2 - 1)),
+// With r = from / to and c the cosine here, the cosine there is
+// sqrt(1 - r^2 * (1 - c^2)) = sqrt((r * c)^2 - (r^2 - 1)),
 // and the direction r * d + (r * c - cosine there) * n. Nothing cancels: a difference of squares is a product, that of
 // r * c and the cosine there is the quotient of r^2 - 1 and their sum, and r^2 - 1 comes from the indices' difference.
 bool refracted(Real3 direction, Real3 normal, Real from, Real to, out Real3 result) {

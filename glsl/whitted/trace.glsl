@@ -2,7 +2,8 @@
 #include "path.glsl"
 #include "branches.glsl"
 
-// What the ray's origin lies in, not counting the solid whose surface it leaves: only such solids come before all others.
+// What the ray's origin lies in, not counting the solid whose surface it leaves: only such solids come before all
+// others.
 void ask_for_medium(inout Path path) {
     path.purpose = TO_MEDIUM;
     path.medium_outside = 1.0;

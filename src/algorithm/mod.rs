@@ -19,7 +19,7 @@ pub enum Algorithm {
     Course,
     /// The accurate model by textbook quadratics in `f32`.
     Plain,
-    /// The accurate model with exact sums where rounding would show.
+    /// The accurate model with compensated sums where rounding would show.
     #[default]
     Whitted,
     /// The accurate model in `f64` on the CPU, without Vulkan.
@@ -33,7 +33,7 @@ pub enum Kernel {
     Course,
     /// `f32`.
     Plain,
-    /// `f32` or `f64`, of which not every device has the latter.
+    /// `f32` or `f64`; not every device has the latter.
     Whitted(Precision),
 }
 
@@ -165,7 +165,7 @@ impl Algorithm {
         ALGORITHMS.iter().filter(|description| description.is_in_fps_table).map(|description| description.algorithm)
     }
 
-    /// The names of those that can do something, for messages: «plain and whitted».
+    /// The names of those that can do something, for messages: "plain and whitted".
     pub fn names(can: impl Fn(&Description) -> bool) -> String {
         let names: Vec<_> =
             ALGORITHMS.iter().filter(|description| can(description)).map(|description| description.name).collect();

@@ -23,7 +23,7 @@ impl Precision {
         }
     }
 
-    /// Of a solid, in scene space: the rounding errors of its squares are still normal numbers.
+    /// Smallest length of a solid, in scene space: the rounding errors of its squares are still normal numbers.
     pub(crate) fn smallest_length(self) -> f64 {
         match self {
             Self::F32 => 2f64.powi(-50),

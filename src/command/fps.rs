@@ -167,7 +167,7 @@ impl Stage for InWindow<'_> {
     }
 }
 
-/// As told, else as begun, else as the course work's table with little time.
+/// As asked, else as begun, else as the course work's table with little time.
 pub(super) fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
     let base = begun.cloned().unwrap_or_else(Plan::of_course);
     let (width, height) = args.size.unwrap_or((base.width, base.height));
@@ -188,7 +188,7 @@ pub(super) fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
     }
 }
 
-/// Measures what is missing, and writes the table after every place of it; false after Ctrl-C.
+/// Measures what is missing, and writes the table after every cell of it; false after Ctrl-C.
 fn fill(table: &mut FpsTable, stage: &mut dyn Stage, outputs: &[PathBuf]) -> Result<bool> {
     let missing = table.missing();
     // The more solids, the longer.

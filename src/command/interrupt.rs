@@ -20,7 +20,7 @@ pub fn handle() -> Result<(), ctrlc::Error> {
         let is_second = REQUESTED.swap(true, Ordering::Relaxed);
         if is_second || !LISTENED_TO.load(Ordering::Relaxed) {
             whole_file::remove_unfinished();
-            // The one line of every failed run; where it cannot be written, the exit code tells as much.
+            // The one line of every failed run; where it cannot be written, the exit code says as much.
             let _ = writeln!(std::io::stderr(), "zerkalo: stopped");
             std::process::exit(EXIT_CODE.into());
         }
@@ -30,7 +30,7 @@ pub fn handle() -> Result<(), ctrlc::Error> {
     })
 }
 
-/// While it lives, Ctrl-C only sets what [`Listener::stop_requested`] tells.
+/// While it lives, Ctrl-C only sets what [`Listener::stop_requested`] returns.
 pub struct Listener(());
 
 impl Listener {

@@ -37,7 +37,8 @@ use crate::settings::SettingsError;
 use crate::tracer::TracerError;
 use crate::viewer::ViewerError;
 
-/// What the program is asked to do. A variant has no doc comment: it would take the place of its arguments' help.
+/// What the program is asked to do.
+#[allow(missing_docs, reason = "clap puts a variant's doc in place of its arguments' help")]
 #[derive(Debug, Subcommand)]
 pub enum Command {
     View(view::ViewArgs),
@@ -55,7 +56,7 @@ pub enum Command {
 }
 
 impl Command {
-    /// Does it to its end; [`exit_code`] tells what a failure ends the program with.
+    /// Does it to its end; [`exit_code`] is what a failure ends the program with.
     pub fn run(&self) -> anyhow::Result<()> {
         match self {
             Self::View(args) => view::run(args),
@@ -178,7 +179,7 @@ fn nearest_ready(name: &str) -> Option<String> {
     (likeness(&nearest) >= LIKE).then_some(nearest)
 }
 
-/// Every file that `-o` asks for, of which it is known that it can be written; a name without an extension is a
+/// Every file that `-o` asks for, each known to be writable; a name without an extension is a
 /// folder's for one of each form, called `stem`.
 fn report_files(paths: &[PathBuf], stem: &str) -> anyhow::Result<Vec<PathBuf>> {
     let mut files = Vec::new();
@@ -199,7 +200,7 @@ fn parse_seconds(text: &str) -> Result<Duration, String> {
     seconds.map(Duration::from_secs_f64).ok_or("it must be a number of seconds, 0.001 to 3600".to_owned())
 }
 
-/// Tells what validation had to say; a failure if it said anything about what the program does.
+/// Reports what validation had to say; a failure if it said anything about what the program does.
 fn refuse_messages(messages: &Messages) -> anyhow::Result<()> {
     for (remark, count) in messages.remarks() {
         eprintln!("no fault: {count} of {remark}");

@@ -101,7 +101,7 @@ struct Report<'a> {
     validation_remarks: Vec<Remarked>,
 }
 
-/// A picture, what drew it, and what is to be told of that.
+/// A picture, what drew it, and what is to be reported of that.
 struct Rendered {
     frame: Frame,
     algorithm: Algorithm,

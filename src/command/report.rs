@@ -90,7 +90,7 @@ pub fn run(args: &ReportArgs) -> Result<()> {
     conclude(&report, path, is_stopped)
 }
 
-/// Measures a section, unless Ctrl-C came before. A failure is told in the page, and the next section is tried.
+/// Measures a section, unless Ctrl-C came before. A failure is shown in the page, and the next section is measured.
 fn fill<T>(section: &mut Section<T>, progress: Progress, measure: impl FnOnce(&mut T, &Progress) -> Result<()>) {
     if progress.at(0.0, "").is_break() {
         return;

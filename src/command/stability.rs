@@ -1,4 +1,4 @@
-//! `zerkalo stability`: the catalogue of extremes, tried on every kernel.
+//! `zerkalo stability`: the catalogue of extremes, tested on every kernel.
 
 use std::ops::ControlFlow;
 use std::path::PathBuf;

@@ -25,7 +25,7 @@ pub struct StreamArgs {
 
 impl StreamArgs {
     /// # Errors
-    /// A format is given of what is no stream: the file's name tells it.
+    /// A format is given of what is no stream: the file's name says it.
     pub fn check(&self, is_from_stream: bool, is_into_stream: bool) -> Result<()> {
         if self.format.is_some() && !is_from_stream {
             return Err(Contradictory("--format is for a scene from standard input, -").into());

@@ -85,7 +85,7 @@ pub fn run(args: &ValidateArgs) -> Result<()> {
     }
 }
 
-/// Such as `GPU-assisted, synchronization (core)`: those that told nothing of the mistakes that they are there for.
+/// Such as `GPU-assisted, synchronization (core)`: those that reported nothing of the mistakes that they are there for.
 fn silent(checks: &[TriedCheck]) -> String {
     let named = |&TriedCheck { validation, check, .. }: &TriedCheck| match check.name() {
         name if name == validation => name.to_owned(),
@@ -185,7 +185,7 @@ fn draw(
     Ok(())
 }
 
-/// `observe` hears of every run, by its place, and can stop the work there.
+/// `observe` gets every run with its index, and can stop the work there.
 fn show_all(
     window: &mut PictureWindow,
     runs: &[&Run],
@@ -204,7 +204,7 @@ fn show_all(
     Ok(())
 }
 
-/// At the run in the `place` of its pass.
+/// At the run with index `place` in its pass.
 fn is_at(run: &Run, place: usize, pass: &mut Pass, all: usize, watch: Watch<'_>) -> ControlFlow<()> {
     let is_new = pass.begun == place;
     watch(is_new.then_some(Next { name: &run.name, all }))?;

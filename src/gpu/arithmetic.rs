@@ -12,7 +12,7 @@ use super::memory::{Buffer, BufferKind};
 use super::pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
 use super::shaders;
 
-/// Of a kernel's numbers.
+/// Width of a kernel's numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FloatWidth {
     /// 24 bits of significand.
@@ -43,7 +43,7 @@ pub struct Arithmetic {
     pub nan_preserve_declared: bool,
 }
 
-/// Of a device that calculates in that width; tried at the first call.
+/// Arithmetic of a device that calculates in that width; tested at the first call.
 pub fn arithmetic(device: &Arc<Device>, width: FloatWidth) -> Result<Arithmetic, GpuError> {
     let place = match width {
         FloatWidth::F32 => 0,

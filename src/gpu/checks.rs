@@ -1,4 +1,4 @@
-//! Which checks of validation are on: silence means something only where a mistake made on purpose is told.
+//! Which checks of validation are on: silence means something only where a mistake made on purpose is reported.
 
 use std::sync::Arc;
 
@@ -65,7 +65,7 @@ impl Check {
         }
     }
 
-    /// Whether a message tells of that mistake.
+    /// Whether a message reports that mistake.
     fn is_told_by(self, message: &Message) -> bool {
         let Message { severity: _, id, text } = message;
         match self {
@@ -78,7 +78,7 @@ impl Check {
     }
 }
 
-/// Tries every check of a kind of validation on a device of its own; whether each was on.
+/// Tests every check of a kind of validation on a device of its own; whether each was on.
 ///
 /// # Errors
 /// As of [`Device::open`], or the device fails.

@@ -19,7 +19,7 @@ pub struct Commands {
     name: String,
     /// What the submission in flight uses; `None` where none is.
     in_flight: Option<Vec<Arc<dyn Any>>>,
-    /// Of the last [`Commands::run`] and those that went on from it.
+    /// Hazards of the last [`Commands::run`] and those that went on from it.
     hazards: Hazards,
     device: Arc<Device>,
 }
@@ -36,7 +36,7 @@ pub(crate) struct Semaphores {
 }
 
 impl Commands {
-    /// `name` is what debuggers show and failures tell.
+    /// `name` is what debuggers and failures show.
     pub fn new(device: &Arc<Device>, name: &str) -> Result<Self, GpuError> {
         let failed = |what| GpuError::call(move || format!("create the {what} '{name}'"));
         // Null handles until made; `Drop` ignores them, so a failure on the way leaks nothing.
@@ -173,7 +173,7 @@ impl Commands {
 
 impl Drop for Commands {
     fn drop(&mut self) {
-        // A lost device runs nothing more, and there is nobody to tell.
+        // A lost device runs nothing more, and there is nobody to report it to.
         let _ = self.wait();
         // SAFETY: nothing is in flight; null handles are ignored.
         unsafe {

@@ -30,7 +30,7 @@ pub struct Device {
     pub(super) timestamp_period_ns: f32,
     pub(super) description: DeviceDescription,
     pub(super) float_controls: [FloatControls; 2],
-    /// Of `f32` and `f64`, once they have been tried.
+    /// Arithmetic of `f32` and `f64`, once they have been tested.
     pub(super) arithmetic: [OnceLock<Arithmetic>; 2],
     pub(super) cache: PipelineCache,
     names: Option<ext::debug_utils::Device>,

@@ -25,7 +25,7 @@ pub enum GpuError {
     )]
     NoValidationLayer,
 
-    /// With the instance extension that is missing: for messages, or for telling the layer what to check.
+    /// With the instance extension that is missing: for messages, or for setting the layer's checks.
     #[error("validation was asked for, but the Vulkan loader and its layer do not offer {0}")]
     NoValidationExtension(&'static str),
 
@@ -48,7 +48,7 @@ pub enum GpuError {
         listed: String,
     },
 
-    /// A Vulkan call failed; `operation` names what was tried and on which object.
+    /// A Vulkan call failed; `operation` names what was attempted and on which object.
     #[error("could not {operation}: {result:?}{}", hint(*.result))]
     Call {
         /// Follows "could not".

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-/// Of one width of floats.
+/// Controls of one width of floats.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct FloatControls {
     /// Bits.

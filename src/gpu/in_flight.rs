@@ -24,20 +24,20 @@ impl InFlight {
     /// Submissions recorded ahead of the device.
     pub const COUNT: usize = 2;
 
-    /// `name` is what debuggers show and failures tell.
+    /// `name` is what debuggers and failures show.
     pub fn new(device: &Arc<Device>, name: &str) -> Result<Self, GpuError> {
         let ring = [Commands::new(device, name)?, Commands::new(device, name)?];
         Ok(Self { ring, next: 0, hazards: Hazards::default() })
     }
 
-    /// Waits until the next place of the ring is free and returns which it is: what was submitted from there, the last
+    /// Waits until the next slot of the ring is free and returns which it is: what was submitted from there, the last
     /// but [`InFlight::COUNT`], has ended.
     pub fn wait_for_place(&mut self) -> Result<usize, GpuError> {
         self.ring[self.next].wait()?;
         Ok(self.next)
     }
 
-    /// The places of the ring, from the one submitted from longest ago.
+    /// The slots of the ring, from the one submitted from longest ago.
     pub fn places(&self) -> [usize; Self::COUNT] {
         std::array::from_fn(|offset| (self.next + offset) % Self::COUNT)
     }
@@ -47,7 +47,7 @@ impl InFlight {
         self.ring.iter_mut().try_for_each(Commands::wait)
     }
 
-    /// Records and submits from the next place, which it waits for.
+    /// Records and submits from the next slot, which it waits for.
     pub(crate) fn submit(
         &mut self,
         semaphores: Semaphores,

@@ -10,7 +10,7 @@ use super::messages::Messages;
 use super::surface::SurfaceTarget;
 
 /// # Errors
-/// No loader, no such layer, or one that cannot be told what to check.
+/// No loader, no such layer, or one whose checks cannot be set.
 pub fn validation_layer() -> Result<Layer, GpuError> {
     // SAFETY: the loader library's initialisers are trusted like any system library's.
     let entry = unsafe { ash::Entry::load() }.map_err(GpuError::NoLoader)?;

@@ -1,4 +1,4 @@
-//! The validation layer: what it is asked to check, and by which extension it is told.
+//! The validation layer: what it is asked to check, and by which extension.
 
 use std::ffi::{CStr, c_char};
 use std::fmt;
@@ -85,7 +85,7 @@ const CORE_CHECKS: Switch = Switch {
     setting: c"VK_VALIDATION_FEATURE_DISABLE_CORE_CHECKS_EXT",
 };
 
-/// The extension by which the layer is told what to check.
+/// The extension that sets the layer's checks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub enum SetUpBy {
     /// Takes single settings as well as lists of checks; preferred where the layer offers both.
@@ -118,7 +118,7 @@ impl SetUpBy {
 pub struct Layer {
     /// As the loader lists it, `VK_LAYER_KHRONOS_validation`.
     pub name: String,
-    /// Of the Vulkan specification that it checks against.
+    /// Version of the Vulkan specification that it checks against.
     pub version: String,
     /// Its own number.
     pub implementation: u32,
@@ -178,7 +178,7 @@ pub(super) fn offers_extension(entry: &ash::Entry, layer: Option<&CStr>, wanted:
     Ok(extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(wanted)))
 }
 
-/// What the layer is told, in the arrays that the structures of either extension point to.
+/// Settings of the layer, in the arrays that the structures of either extension point to.
 pub(super) struct LayerSetUp {
     enabled: Vec<vk::ValidationFeatureEnableEXT>,
     disabled: Vec<vk::ValidationFeatureDisableEXT>,
@@ -188,7 +188,7 @@ pub(super) struct LayerSetUp {
     has_ray_query_setting: bool,
 }
 
-/// Since when `gpuav_validate_ray_query` has that name, as far as was tried. The layer warns where it is on and the
+/// Since when `gpuav_validate_ray_query` has that name, as far as was tested. The layer warns where it is on and the
 /// device has no ray queries, which no kernel here makes.
 const RAY_QUERY_SETTING_SINCE: u32 = vk::make_api_version(0, 1, 4, 309);
 

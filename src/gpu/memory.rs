@@ -41,7 +41,7 @@ pub enum Texel {
 }
 
 impl Texel {
-    /// Of one texel, whichever it holds.
+    /// Bytes of one texel, whichever it holds.
     pub const BYTES: u64 = 16;
 
     /// Every Vulkan device must offer both for texel buffers.
@@ -86,7 +86,7 @@ impl BufferKind {
 /// A buffer; the host has mapped it, unless it is of [`BufferKind::Pixels`].
 pub struct Buffer {
     pub(super) raw: vk::Buffer,
-    /// Of [`BufferKind::Texels`]; else null.
+    /// View of [`BufferKind::Texels`]; else null.
     pub(super) view: vk::BufferView,
     pub(super) name: String,
     pub(super) kind: BufferKind,
@@ -189,7 +189,7 @@ impl StorageImage {
     /// Every Vulkan device must offer this format for storage images and as the source of blits.
     const FORMAT: vk::Format = vk::Format::R32G32B32A32_SFLOAT;
 
-    /// `name` is what debuggers show and failures tell; the sides are in pixels, of which none is set yet.
+    /// `name` is what debuggers and failures show; the sides are in pixels, none of them set yet.
     pub fn new(device: &Arc<Device>, name: &str, width: u32, height: u32) -> Result<Self, GpuError> {
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)

@@ -166,7 +166,7 @@ impl Messages {
         self.book().faults.get(count..).unwrap_or_default().to_vec()
     }
 
-    /// Of those that are faults.
+    /// Number of those that are faults.
     pub fn count(&self) -> usize {
         self.book().faults.len()
     }
@@ -182,7 +182,7 @@ impl Messages {
         REMARKS.to_vec()
     }
 
-    /// Tells which layer's remarks to expect: a version as Vulkan encodes it.
+    /// Sets which layer's remarks to expect: a version as Vulkan encodes it.
     pub(super) fn set_layer_version(&self, version: u32) {
         self.book().layer = version;
     }

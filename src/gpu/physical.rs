@@ -50,10 +50,10 @@ impl DeviceKind {
     }
 }
 
-/// A device as people and programs are told of it.
+/// A device as people and programs see it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct DeviceDescription {
-    /// Place in the loader's list; what `--device INDEX` takes.
+    /// Index in the loader's list; what `--device INDEX` takes.
     pub index: usize,
     /// As the driver gives it; two devices may share one.
     pub name: String,
@@ -114,9 +114,9 @@ impl Features {
 
     /// Those of them that kernels use.
     ///
-    /// Reads beyond buffers are kept harmless in debug builds, where `view --watch` runs kernels that nobody has tried. The
-    /// program's own are tried by GPU-assisted validation; theirs it would cost 0.2 to 0.8 % of a frame (lavapipe of Mesa
-    /// 22.3, medians of five pairs: showcase 1.002, 100 boxes 1.008, 10000 solids 1.006).
+    /// Reads beyond buffers are kept harmless in debug builds, where `view --watch` runs kernels that nobody has
+    /// tested. The program's own are tested by GPU-assisted validation; theirs it would cost 0.2 to 0.8 % of a frame
+    /// (lavapipe of Mesa 22.3, medians of five pairs: showcase 1.002, 100 boxes 1.008, 10000 solids 1.006).
     pub fn of_kernels(&self) -> Self {
         let of_1_0 = vk::PhysicalDeviceFeatures::default()
             .shader_float64(self.of_1_0.shader_float64 == vk::TRUE)

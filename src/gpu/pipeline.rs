@@ -216,7 +216,7 @@ fn compile(
 /// A resource that can be bound.
 #[derive(Clone)]
 pub enum Resource {
-    /// Of any [`BufferKind`].
+    /// Buffer of any [`BufferKind`].
     Buffer(Arc<Buffer>),
     /// For [`BindingKind::Picture`] and [`BindingKind::PictureRead`].
     Image(Arc<StorageImage>),
@@ -289,7 +289,7 @@ impl From<&Arc<StorageImage>> for Resource {
 /// A descriptor set: the resources of one pipeline and its siblings, kept alive with it.
 pub struct BindingSet {
     pub(super) set: vk::DescriptorSet,
-    /// Of the pipelines that it serves.
+    /// Layout of the pipelines that it serves.
     pub(super) layout: Arc<Layout>,
     pub(super) uses: Vec<(Resource, Use)>,
     pool: vk::DescriptorPool,

@@ -23,7 +23,7 @@ pub struct Dispatch<'p> {
 }
 
 impl<'p> Dispatch<'p> {
-    /// Of a grid of two dimensions.
+    /// Dispatch of a grid of two dimensions.
     pub fn flat(pipeline: &'p Arc<ComputePipeline>, [x, y]: [u32; 2], [width, height]: [u32; 2]) -> Self {
         Self { pipeline, first: [x, y, 0], groups: [width, height, 1] }
     }
@@ -218,7 +218,7 @@ impl<'h> Recorder<'h> {
     }
 
     /// Copies parts of a picture, each its first pixel and its size, from the buffer, which holds the picture in rows
-    /// of `width` pixels, to their places in the image. No barrier stands between them, so they must not overlap.
+    /// of `width` pixels, to their positions in the image. No barrier stands between them, so they must not overlap.
     ///
     /// # Panics
     /// One of the two has no room for a part.
@@ -300,7 +300,7 @@ impl<'h> Recorder<'h> {
         }
     }
 
-    /// Ends what [`Recorder::start`] began; [`Timer::elapsed_ns`] tells the time once the submission has ended.
+    /// Ends what [`Recorder::start`] began; [`Timer::elapsed_ns`] is the time once the submission has ended.
     pub fn stop(&mut self, timer: &Arc<Timer>) {
         // SAFETY: as for `start`.
         unsafe {

@@ -61,7 +61,7 @@ impl Shader {
     }
 }
 
-/// Builds of kernels in the place of those that the program has in it, such as of sources that have changed since.
+/// Builds of kernels in place of those that the program has in it, such as of sources that have changed since.
 #[derive(Clone, Default)]
 pub struct Builds(Vec<Shader>);
 
@@ -72,7 +72,7 @@ impl Builds {
         self.0.push(build);
     }
 
-    /// The build in the place of one of the program's own, or that one.
+    /// The build in place of one of the program's own, or that one.
     pub fn of<'a>(&'a self, own: &'a Shader) -> &'a Shader {
         self.0.iter().find(|build| build.name == own.name).unwrap_or(own)
     }

@@ -162,7 +162,7 @@ impl Swapchain {
     ///
     /// It is to be [shown](Swapchain::show) with the same submissions.
     pub fn acquire(&mut self, in_flight: &mut InFlight) -> Result<Result<Acquired, Fit>, GpuError> {
-        // As many semaphores as places: the submission that waited for this one has ended.
+        // As many semaphores as slots: the submission that waited for this one has ended.
         in_flight.wait_for_place()?;
         let semaphore = self.acquired[self.next_acquired];
         // SAFETY: the semaphore is unsignalled, as its last wait has ended.
@@ -307,7 +307,7 @@ impl WindowImage<'_> {
 impl Drop for Swapchain {
     fn drop(&mut self) {
         let raw = &self.device.raw;
-        // On a lost device nothing runs, and there is nobody to tell.
+        // On a lost device nothing runs, and there is nobody to report it to.
         // SAFETY: the device is alive; no other thread uses the queue.
         let _ = self.device.with_queue(|queue| unsafe { raw.queue_wait_idle(queue) });
         // SAFETY: all that was submitted and shown has ended; null handles are ignored.

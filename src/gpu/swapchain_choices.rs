@@ -23,7 +23,7 @@ pub(super) fn unfit(result: vk::Result) -> Option<Fit> {
 }
 
 pub(super) fn choose_extent(capabilities: &vk::SurfaceCapabilitiesKHR, wanted: [u32; 2]) -> vk::Extent2D {
-    // The specification's word for «as you like».
+    // The specification's word for "as you like".
     if capabilities.current_extent.width != u32::MAX {
         return capabilities.current_extent;
     }
@@ -52,7 +52,7 @@ pub(super) fn choose_present_mode(modes: &[vk::PresentModeKHR], waits_for_displa
     chosen.unwrap_or(vk::PresentModeKHR::FIFO)
 }
 
-/// Of the modes that [`choose_present_mode`] chooses.
+/// Name of one of the modes that [`choose_present_mode`] chooses.
 pub(super) fn present_mode_name(mode: vk::PresentModeKHR) -> &'static str {
     match mode {
         vk::PresentModeKHR::MAILBOX => "mailbox",

@@ -1,4 +1,4 @@
-//! The devices of the machine, tried.
+//! The devices of the machine, tested.
 
 use serde::Serialize;
 

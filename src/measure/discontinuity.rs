@@ -46,7 +46,7 @@ impl Difference {
         difference
     }
 
-    /// Of both together.
+    /// Both differences together.
     pub fn plus(self, other: Self) -> Self {
         Self {
             largest: self.largest.max(other.largest),

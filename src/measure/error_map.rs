@@ -9,8 +9,8 @@ use crate::frame::{Frame, FrameError};
 pub const SMALLEST_ERROR: f64 = 1e-9;
 pub const LARGEST_ERROR: f64 = 1.0;
 
-/// Of an error of a linear channel: from dark to light, evenly, so that it reads in grey too; what is not finite is
-/// red.
+/// Colour of an error of a linear channel: from dark to light, evenly, so that it reads in grey too; infinities and
+/// NaNs are red.
 pub fn error_color(error: f64) -> RGBColor {
     if !error.is_finite() {
         return RED;
@@ -36,7 +36,7 @@ pub fn error_map(reference: &Frame, picture: &Frame) -> Result<Frame, FrameError
     Ok(map)
 }
 
-/// The shades from [`SMALLEST_ERROR`] at the left to [`LARGEST_ERROR`] at the right.
+/// Shades of errors from `SMALLEST_ERROR` at the left to `LARGEST_ERROR` at the right, on a logarithmic scale.
 ///
 /// # Errors
 /// The size is impossible.

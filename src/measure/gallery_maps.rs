@@ -18,12 +18,14 @@ use crate::tracer::{Settings, TracerError, limits_of};
 pub struct SceneMaps {
     /// By the accurate kernel in `f32`.
     pub picture: Frame,
+    /// One a kernel; the first is that of `picture`.
     pub maps: Vec<KernelMap>,
 }
 
 /// A kernel, exactly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KernelMap {
+    /// What the kernel was asked for.
     pub setting: RenderSettings,
     /// Or why it does not draw this scene on this device.
     pub drawn: Result<Drawn, String>,
@@ -32,20 +34,25 @@ pub struct KernelMap {
 /// How far a picture is from the reference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Drawn {
+    /// Error of each pixel as a colour, dark where it is small.
     pub map: Frame,
-    /// Of linear values, as `zerkalo compare` tells it.
+    /// Error of linear values, as `zerkalo compare` reports it.
     pub error: ImageError,
 }
 
 /// Why there is none.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneMapsError {
+    /// A kernel could not draw.
     #[error(transparent)]
     Tracer(#[from] TracerError),
+    /// There is no plan of the scene.
     #[error(transparent)]
     Plan(#[from] PlanError),
+    /// A frame of a size that cannot be, or no memory for it.
     #[error(transparent)]
     Frame(#[from] FrameError),
+    /// The pictures cannot be compared.
     #[error(transparent)]
     Comparison(#[from] ComparisonError),
 }

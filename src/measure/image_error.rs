@@ -40,10 +40,23 @@ pub struct ImageError {
 /// Why two frames cannot be compared: always the input's fault.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum ComparisonError {
+    /// Two frames of different sizes.
     #[error("the images differ in size: {}x{} and {}x{}", a.0, a.1, b.0, b.1)]
-    SizesDiffer { a: (u32, u32), b: (u32, u32) },
+    SizesDiffer {
+        /// Width and height of the reference, pixels.
+        a: (u32, u32),
+        /// Width and height of the tested frame, pixels.
+        b: (u32, u32),
+    },
+    /// A mask that is not of the frames' size.
     #[error("the mask is {}x{}, the images are {}x{}", mask.0, mask.1, image.0, image.1)]
-    MaskSizeDiffers { mask: (u32, u32), image: (u32, u32) },
+    MaskSizeDiffers {
+        /// Width and height of the mask, pixels.
+        mask: (u32, u32),
+        /// Width and height of the frames, pixels.
+        image: (u32, u32),
+    },
+    /// A mask without a pixel to count.
     #[error("the mask selects no pixel (none is 128 or brighter)")]
     EmptyMask,
 }

@@ -7,11 +7,12 @@ use crate::gpu::DeviceDescription;
 /// What measured.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Machine {
+    /// Name that the driver gives it.
     pub device: String,
     /// Name and version.
     pub driver: String,
     /// This program, its version and, where it was built in a clone, the commit that it was built on: edits since are
-    /// not told.
+    /// not recorded.
     pub program: String,
     /// How frames were shown in a window, by Vulkan's word, such as `mailbox`; `None` where none was.
     pub present_mode: Option<String>,

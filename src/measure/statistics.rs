@@ -1,4 +1,4 @@
-//! What is told of repeated measurements of one time.
+//! Statistics of repeated measurements of one time.
 
 use serde::Serialize;
 
@@ -11,12 +11,13 @@ const FENCE_RANGES: f64 = 3.0;
 /// by a tick of its clock would else warn of the tick.
 const UNREMARKABLE_SHARE: f64 = 0.01;
 
-/// The middle of the sorted samples; of two middles, their mean rounded down. `None` without samples.
+/// The middle of the sorted samples; of an even number, the mean of both middle ones, rounded down. `None` without
+/// samples.
 pub fn median(samples_ns: &[u64]) -> Option<u64> {
     median_of_sorted(&sorted(samples_ns))
 }
 
-/// First quartile, median and third quartile, between values as in [`Summary::quartiles_ns`]. `None` without values.
+/// First quartile, median and third quartile, between values as in `Summary::quartiles_ns`. `None` without values.
 pub fn quartiles(values: &[f64]) -> Option<[f64; 3]> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f64::total_cmp);
@@ -35,7 +36,7 @@ pub struct Summary {
     /// interpolation (type 7 of Hyndman and Fan, Sample Quantiles in Statistical Packages, 1996).
     pub quartiles_ns: [f64; 2],
     pub mean_ns: f64,
-    /// Of the samples' distribution (n − 1 in the denominator); one sample has none.
+    /// Standard deviation of the samples' distribution (n − 1 in the denominator); one sample has none.
     pub stddev_ns: Option<f64>,
     /// Where in the samples those stand that are beyond [`Summary::fences_ns`] and not within 1 % of the median.
     pub outliers: Vec<usize>,
@@ -65,7 +66,7 @@ impl Summary {
         Some(summary)
     }
 
-    /// Of the middle half of the samples: what of the spread no single sample moves.
+    /// Range of the middle half of the samples: no single sample moves it.
     pub fn interquartile_range_ns(&self) -> f64 {
         self.quartiles_ns[1] - self.quartiles_ns[0]
     }
@@ -94,7 +95,7 @@ fn median_of_sorted(sorted: &[u64]) -> Option<u64> {
     Some(sorted[low].midpoint(sorted[high]))
 }
 
-/// Of at least one sample.
+/// Quantile of at least one sample.
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     let place = share * (sorted.len() - 1) as f64;
     let (low, high) = (sorted[place.floor() as usize], sorted[place.ceil() as usize]);

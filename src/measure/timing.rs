@@ -17,6 +17,7 @@ use crate::tracer::{Settings, Tracer, TracerError};
 pub struct Budget {
     /// Wall time of the kernel's frames, milliseconds.
     pub time_ms: u64,
+    /// Number of frames.
     pub frames: usize,
     /// Frames are not enough before so much time, milliseconds: a fast device raises its clock under load only.
     pub least_ms: u64,
@@ -28,7 +29,7 @@ impl Budget {
     /// Figures in minutes on a slow device, in half a minute on a fast one.
     pub const QUICK: Self = Self { time_ms: 3000, frames: 5, least_ms: 250 };
 
-    /// As long as told; a device that is through with ten thousand frames before has shown what it can, and its file
+    /// As long as asked; a device that is through with ten thousand frames before has shown what it can, and its file
     /// shall be of a size to be opened.
     pub fn lasting(time: Duration) -> Self {
         Self { time_ms: time.as_millis() as u64, frames: 10_000, least_ms: 0 }
@@ -44,20 +45,20 @@ impl Budget {
     }
 }
 
-/// Which of its two times a frame is judged by.
+/// Which of its two times counts for a frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Clock {
-    /// Of the tracing alone, by the device's timestamps.
+    /// Time of the tracing alone, by the device's timestamps.
     Gpu,
-    /// From the call to the picture in the host's memory: submission, tracing and the copy.
+    /// Time from the call to the picture in the host's memory: submission, tracing and the copy.
     Wall,
 }
 
 /// What one frame took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct FrameTime {
-    /// Of the tracing alone; `None` where the device has no timestamps.
+    /// Time of the tracing alone; `None` where the device has no timestamps.
     pub gpu_time_ns: Option<u64>,
     pub wall_time: Duration,
 }

@@ -1,4 +1,4 @@
-//! What an allowed error buys (docs/light-model.md, «What an allowed error leaves out»).
+//! What an allowed error buys (docs/light-model.md, "What an allowed error leaves out").
 //!
 //! A pixel is Σ T·E over the generations of its rays, T being the product of the weights met before. Three things may
 //! be left out of it, each for a part of the allowed error, and the parts add up: none of them turns a ray, so one cut
@@ -22,7 +22,7 @@ pub struct Approximations {
     /// A path ends as soon as its weight is not above that; below 1.
     #[serde(rename = "least_weight")]
     pub min_throughput: f32,
-    /// No shadow ray is traced for light of which no channel, times the path's weight, is above that; half of such
+    /// No shadow ray is traced for light whose channels, times the path's weight, are all at most that; half of such
     /// light counts, so that the error is at most half of it whether a solid is in the way or not.
     #[serde(rename = "least_shadowed")]
     pub min_shadowed: f32,
@@ -75,7 +75,7 @@ impl Bounds {
 pub(super) struct Transport {
     background: DVec3,
     ambient_light: DVec3,
-    /// Of lights that give any light, the most that reaches a point, linear RGB.
+    /// Most that reaches a point from each light that gives any, linear RGB.
     intensities: Vec<DVec3>,
     /// Each once.
     materials: Vec<Material>,
@@ -273,7 +273,7 @@ struct GenerationCut {
 ///
 /// With k the least weight of a ray of the next generation and K the largest gain, a path's weight after m hits is from
 /// kᵐ to Kᵐ. So where τ < kᵐ⁻¹ none is cut before it has met m surfaces: it weighs at most min(τ, Kᵐ) then, and has
-/// `depth` − m generations to go, of which the ceiling is known.
+/// `depth` − m generations to go, whose ceiling is known.
 ///
 /// Where surfaces refract, a pixel has many paths. Those cut lie on different branches, so that together they weigh no
 /// more than all of generation m, Kᵐ, or, where K is above 1, all of the last one.
@@ -320,7 +320,7 @@ fn longest(largest_gain: f64, weight: f64, depth: u32) -> u32 {
 
 /// What leaving out shadow rays can change.
 struct Shadows {
-    /// Of each light, the most that any surface sends back.
+    /// Most that any surface sends back of each light.
     direct: Vec<DVec3>,
     largest_gain: f64,
     /// Whether a path may go on by two rays.

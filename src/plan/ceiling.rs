@@ -7,7 +7,7 @@ use crate::scene::Scene;
 /// What one kind of hit can send back at most: its own light, and the weight of what it mirrors and lets through.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Surface {
-    /// Of all rays of the next generation together.
+    /// Weight of all rays of the next generation together.
     pub gain: f64,
     /// Linear RGB.
     pub local_radiance: DVec3,
@@ -21,9 +21,9 @@ pub(super) fn brightest_source(scene: &Scene) -> f64 {
 
 /// Vₙ for n = 0…`depth`: no ray of n generations is brighter, in linear RGB.
 ///
-/// V₀ = 0, and Vₙ = max(background, maxₘ(Eₘ + gₘ·Vₙ₋₁)): a ray ends in the background, or meets a surface m and goes on,
-/// mirrored and refracted, with a gain of g = reflection + transmission and n − 1 generations left. For one surface that is E·(1 − kⁿ)/(1 − k), or n·E at k = 1; for
-/// several it is less than the largest E with the largest k.
+/// V₀ = 0, and Vₙ = max(background, maxₘ(Eₘ + gₘ·Vₙ₋₁)): a ray ends in the background, or meets a surface m and goes
+/// on, mirrored and refracted, with a gain of g = reflection + transmission and n − 1 generations left. For one surface
+/// that is E·(1 − kⁿ)/(1 − k), or n·E at k = 1; for several it is less than the largest E with the largest k.
 pub(super) fn ceilings(background: DVec3, surfaces: &[Surface], depth: u32) -> Vec<DVec3> {
     let mut ceilings = vec![DVec3::ZERO; depth as usize + 1];
     for channel in 0..3 {
@@ -113,7 +113,7 @@ mod tests {
         assert_eq!(ceilings(DVec3::ONE, &[], 3)[3], DVec3::ONE);
     }
 
-    /// The envelope against the definition, on surfaces of which many are never the brightest, some twice the same.
+    /// The envelope against the definition, on surfaces, many of them never the brightest, some twice the same.
     #[test]
     fn several_surfaces_give_the_brightest_chain_of_them() {
         let mut state = 1_u64;

@@ -12,7 +12,7 @@ use crate::scene::{BoundingSphere, Primitive, SceneSpace, SolidKind};
 pub struct Features {
     /// Which kinds there are: spheres, boxes, cylinders, cones.
     pub kinds: [bool; 4],
-    /// Of boxes over the solids of each kind.
+    /// Levels of boxes over the solids of each kind.
     pub levels: [u32; 4],
     /// No box is rotated against the world's axes.
     pub are_boxes_axis_aligned: bool,
@@ -41,7 +41,7 @@ pub struct Features {
 /// The solids that the kernel sees of a scene.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Kept {
-    /// Of each kind.
+    /// Number of solids of each kind.
     pub counts: [usize; 4],
     pub rotated_boxes: usize,
 }

@@ -13,7 +13,7 @@ use crate::scene::{BoundingSphere, Extent, Primitive, Scene, SceneSpace};
 /// smallest solid.
 pub(super) const MILD_RATIO: f64 = 8192.0;
 
-/// Solids of a scene that close-ups are made of, at most: they are told anew for each place of the camera.
+/// Solids of a scene that close-ups are made of, at most: they are computed anew for each position of the camera.
 const MOST_SOLIDS_NEARBY: usize = 4096;
 
 /// A scene's lengths, measured when they are asked for.

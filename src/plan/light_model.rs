@@ -106,12 +106,12 @@ impl LightFeatures {
         }
     }
 
-    /// Of a material's record.
+    /// Rows of a material's record.
     pub(crate) fn material_rows(self) -> usize {
         if self.shininess || self.media != Media::None { 3 } else { 2 }
     }
 
-    /// Of a light's record.
+    /// Rows of a light's record.
     pub(crate) fn light_rows(self) -> usize {
         if self.attenuation { 3 } else { 2 }
     }
@@ -150,7 +150,7 @@ fn media(scene: &Scene) -> Media {
 /// Whether the camera may be in a solid; then a primary ray has to find out what it begins in.
 pub(crate) fn may_be_in_a_solid(scene: &Scene) -> bool {
     let camera = scene.camera.position;
-    // Kernels take an origin within 8u of size and place for inside: 5e-7 in f32.
+    // Kernels take an origin within 8u of size and position for inside: 5e-7 in f32.
     const SURELY: f64 = 1e-5;
     let may_hold = |solid: &Solid| {
         let place = camera.abs().max_element().max((camera - solid.position()).length());

@@ -9,7 +9,7 @@ use super::solids::unit;
 use super::{Decision, Reason};
 use crate::scene::{Camera, Light, Projection, Scene, farthest_coordinate};
 
-/// What kernels may be off in a direction or a place, relative to distances between the camera, the light and the
+/// What kernels may be off in a direction or a position, relative to distances between the camera, the light and the
 /// solids, among which their frame has its origin: of an `f32` of `u` = 6e-8, a hundredfold.
 const SURELY: f64 = 1e-5;
 
@@ -53,8 +53,8 @@ impl Area {
         let up = ahead.cross(left);
         let half_height = (vertical_fov_degrees.to_radians() / 2.0).tan();
         let half_width = half_height * aspect;
-        // Where the picture ends to the left and right, below and above, in half extents (docs/course-work.md, «Primary
-        // rays»).
+        // Where the picture ends to the left and right, below and above, in half extents (docs/course-work.md, "Primary
+        // rays").
         let ([right_end, left_end], [low_end, high_end]) = match projection {
             Projection::Centered => ([-1.0, 1.0], [-1.0, 1.0]),
             Projection::Course => ([-1.0, 3.0], [-3.0, 1.0]),
@@ -71,7 +71,7 @@ impl Area {
             let (least, greatest) = slopes(to_light.dot(across), to_light.dot(ahead), radius)?;
             let place = |slope: f64| (first - slope / half_extent) / (first - last);
             let (low, high) = (place(greatest), place(least));
-            // What is not a number, of places beyond all bounds, may be seen anywhere.
+            // What is not a number, of points beyond all bounds, may be seen anywhere.
             if low.is_nan() || high.is_nan() {
                 return Some((f64::NEG_INFINITY, f64::INFINITY));
             }

@@ -102,7 +102,7 @@ pub enum PlanError {
         bytes: u64,
         /// Bytes.
         limit: u64,
-        /// Of the kernel, which decides how large most records are.
+        /// Precision of the kernel, which decides how large most records are.
         precision: Precision,
     },
 }
@@ -110,7 +110,7 @@ pub enum PlanError {
 /// What was decided, and why.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Decision<T> {
-    /// In the unit that the plan's field tells.
+    /// In the unit that the plan's field names.
     pub choice: T,
     /// Also a line for people.
     pub reason: Reason,
@@ -127,7 +127,7 @@ pub struct Plan {
     pub kernel: Kernel,
     /// Solids of each kind, in the order of [`SolidKind::ALL`], without those too small for the precision.
     pub counts: [usize; 4],
-    /// Of the scene, dark ones too.
+    /// Lights of the scene, dark ones too.
     pub all_lights: usize,
     /// Whether no box is rotated against the world's axes.
     pub axis_aligned_boxes: Decision<bool>,
@@ -150,7 +150,7 @@ pub struct Plan {
     pub close_up: Option<f64>,
     /// What rounding to `f32` does to the picture; `None` where the precision was asked for and that was not looked at.
     pub rounding: Option<Rounding>,
-    /// Of each kind.
+    /// Structure over the solids of each kind.
     pub structures: Decision<[Structure; 4]>,
     /// Pixels of a workgroup along x and y.
     pub workgroup: Decision<[u32; 2]>,
@@ -257,9 +257,9 @@ impl Plan {
         !self.settings.boxes && self.counts.iter().any(|&count| Structure::over(count) != Structure::None)
     }
 
-    /// With [`Plan::rounding`] looked at where `f32` was asked for, too, which may take a second: for those who tell
+    /// With [`Plan::rounding`] looked at where `f32` was asked for, too, which may take a second: for those who show
     /// the [warning](Plan::warning). To be called with the scene that the plan was made for. Of what is no accurate
-    /// algorithm nothing is told: it is there to show what rounding does.
+    /// algorithm nothing is reported: it is there to show what rounding does.
     pub fn with_f32_tried(mut self, scene: &Scene) -> Self {
         let is_accurate = self.settings.algorithm.description().is_accurate;
         if is_accurate && self.precision.choice == Precision::F32 && self.rounding.is_none() {

@@ -56,7 +56,7 @@ pub(super) fn choose(
     Ok((decision, Some(rounding)))
 }
 
-/// What it does to the picture that is asked for, silhouettes of which it moves by so much.
+/// What it does to the picture that is asked for, whose silhouettes it moves by so much.
 fn rounding_to_f32(lengths: &Lengths, settings: &RenderSettings, size: [u32; 2], shift_pixels: f64) -> Rounding {
     rounding::of_f32(lengths, settings.max_depth.unwrap_or(lengths.scene.max_depth), size, shift_pixels)
 }
@@ -70,11 +70,11 @@ pub(super) fn try_f32(lengths: &Lengths, settings: &RenderSettings, size: [u32; 
 /// mirrors there is no such bound: a round one multiplies an angle's error at every reflection.
 ///
 /// A kernel errs between hit and miss where the clearance is below 8u·size (docs/numerics.md, H); the stored solid is
-/// off by u of its place, seen from the camera, and of its size; the ray's direction by less than 32u of the window's
-/// extent.
+/// off by u of its position, seen from the camera, and of its size; the ray's direction by less than 32u of the
+/// window's extent.
 ///
 /// In a close-up the size's part is taken by the way from the solid's anchor. That is the point nearest to the camera,
-/// so that from a silhouette at a distance D it is at most 2D, and the place of the anchor at most D; of a cone the
+/// so that from a silhouette at a distance D it is at most 2D, and the position of the anchor at most D; of a cone the
 /// anchor is the apex.
 fn silhouette_shift_pixels(lengths: &Lengths, size: [u32; 2]) -> f64 {
     let [width, height] = size.map(f64::from);

@@ -15,13 +15,13 @@ pub enum Reason {
     Asked,
     /// The algorithm has no other.
     OnlyOne,
-    /// Of structures: the algorithm has no boxes around solids.
+    /// Structures: the algorithm has no boxes around solids.
     NoHierarchy,
-    /// Of generations: nothing spares any of the scene's.
+    /// Generations: nothing spares any of the scene's.
     SceneSays,
-    /// Of lights and generations: the scene has no primitives.
+    /// Lights and generations: the scene has no primitives.
     NoSolids,
-    /// Of box rotation: the kernel sees no box.
+    /// Box rotation: the kernel sees no box.
     NoBoxes,
     /// Every box stands along the world's axes.
     NoBoxRotated,
@@ -32,72 +32,72 @@ pub enum Reason {
         /// Those among them that stand askew.
         rotated: usize,
     },
-    /// Of lights and light spheres: the scene has no light.
+    /// Lights and light spheres: the scene has no light.
     NoLights,
     /// No primary ray meets the sphere of a light.
     LightSpheresOutOfSight {
-        /// In the scene.
+        /// Number of lights in the scene.
         lights: usize,
     },
     /// Primary rays may meet spheres of lights.
     LightSpheresInSight {
-        /// In the scene.
+        /// Number of lights in the scene.
         lights: usize,
         /// Those among them whose spheres may be met.
         seen: usize,
     },
     /// All are dark, or no surface sends anything back in their colours.
     NothingTakesLight {
-        /// In the scene.
+        /// Number of lights in the scene.
         lights: usize,
     },
     /// Some light brightens some surface.
     LightsMatter {
-        /// In the scene.
+        /// Number of lights in the scene.
         lights: usize,
         /// Those among them of intensity 0.
         dark: usize,
     },
-    /// Of shadows and highlights: no light brightens anything.
+    /// Shadows and highlights: no light brightens anything.
     NothingIsLit,
-    /// Of shadows: there is one solid, which is convex, and the camera is outside.
+    /// Shadows: there is one solid, which is convex, and the camera is outside.
     LoneSolidShadowsNothing,
-    /// Of shadows: a solid may lie between a hit and a light.
+    /// Shadows: a solid may lie between a hit and a light.
     SolidsMayHide {
-        /// In the scene.
+        /// Number of solids in the scene.
         solids: usize,
     },
-    /// Of highlights and generations: every material's specular is 0.
+    /// Highlights and generations: every material's specular is 0.
     NothingIsSpecular,
-    /// Of highlights: some material's specular is above 0.
+    /// Highlights: some material's specular is above 0.
     SomethingIsSpecular,
-    /// Of generations: some material's specular is above 0, but all rays end at the first hit.
+    /// Generations: some material's specular is above 0, but all rays end at the first hit.
     NothingReflects,
-    /// Of exponents: all highlights have the course work's.
+    /// Exponents: all highlights have the course work's.
     ExponentIsFive,
-    /// Of exponents: some highlight has another.
+    /// Exponents: some highlight has another.
     OwnExponents,
-    /// Of attenuation: no light has a distance constant.
+    /// Attenuation: no light has a distance constant.
     NoLightFades,
-    /// Of attenuation.
+    /// Attenuation: some lights fade with distance.
     LightsFade {
-        /// With a distance constant.
+        /// Number of lights with a distance constant.
         lights: usize,
     },
-    /// Of ambient light: it is 1, or there is nothing that it falls on.
+    /// Ambient light: it is 1, or there is nothing that it falls on.
     AmbientLightIsWhite,
-    /// Of ambient light.
+    /// Ambient light: it is not 1, and falls on something.
     AmbientLightIsColored,
-    /// Of refraction: every material's transmission is 0.
+    /// Refraction: every material's transmission is 0.
     NothingTransmits,
-    /// Of refraction: no solid that lets light through touches another or holds the camera.
+    /// Refraction: no solid that lets light through touches another or holds the camera.
     MediaLieApart {
-        /// That let light through.
+        /// Number of solids that let light through.
         solids: usize,
     },
-    /// Of refraction: what is outside of a solid may be another one.
+    /// Refraction: what is outside of a solid may be another one.
     MediaMayTouch {
-        /// That let light through.
+        /// Number of solids that let light through.
         solids: usize,
     },
     /// All highlights together.
@@ -105,11 +105,11 @@ pub enum Reason {
         /// The most that they add to a linear channel of a pixel.
         bound: f64,
     },
-    /// Of generations: no reflection can show anything but black.
+    /// Generations: no reflection can show anything but black.
     ReflectionsAreBlack,
-    /// Of generations: there is one solid, which shows itself and, mirrored, the background.
+    /// Generations: there is one solid, which shows itself and, mirrored, the background.
     LoneSolidMirrorsBackground,
-    /// Of generations: paths end where they weigh too little to matter.
+    /// Generations: paths end where they weigh too little to matter.
     PathsFade {
         /// Weight at which a path ends; see [`Approximations`](super::Approximations::min_throughput).
         min_throughput: f32,
@@ -125,20 +125,20 @@ pub enum Reason {
         /// The most that silhouettes move which the camera sees directly.
         shift_pixels: f64,
     },
-    /// Of so many pixels that were tried no more than a stray one changes by more than `tolerance`.
+    /// Of so many pixels that were tested no more than a stray one changes by more than `tolerance`.
     RoundingIsHarmless {
         /// Pixels all over the picture.
         tried: usize,
-        /// Of a linear channel, as in [`Reason::RoundingIsNoCut`].
+        /// Tolerance of a linear channel, as in [`Reason::RoundingIsNoCut`].
         tolerance: f64,
     },
     /// See [`Rounding::Harmful`](super::Rounding).
     RoundingSpoils {
-        /// Those that were tried and change by more than the tolerance.
+        /// Those that were tested and change by more than the tolerance.
         wrong: usize,
         /// Pixels all over the picture.
         tried: usize,
-        /// Told in words by its `Display`.
+        /// Put in words by its `Display`.
         cause: Cause,
     },
     /// See [`Rounding::Unknown`](super::Rounding).
@@ -170,31 +170,31 @@ pub enum Reason {
         /// As in [`Reason::RoundingIsNoCut`].
         shift_pixels: f64,
     },
-    /// Of structures: every solid of every kind is looked at.
+    /// Structures: every solid of every kind is looked at.
     FewSolids {
-        /// Of the kind that has most.
+        /// Number of solids of the kind that has most.
         solids: usize,
         /// Most that are looked at one by one: [`Structure::BREAK_EVEN`].
         break_even: usize,
     },
-    /// Of structures: some kind has boxes around its solids.
+    /// Structures: some kind has boxes around its solids.
     ManySolids {
-        /// Of the kind that has most.
+        /// Number of solids of the kind that has most.
         solids: usize,
         /// Most that are looked at one by one: [`Structure::BREAK_EVEN`].
         break_even: usize,
     },
-    /// Of the workgroup, which has one shape for all scenes.
+    /// Workgroup: it has one shape for all scenes.
     SquareWorkgroup,
-    /// Of pixels per invocation: one, for want of [`Limits::packets`](super::Limits::packets).
+    /// Pixels per invocation: one, for want of [`Limits::packets`](super::Limits::packets).
     NoPackets,
-    /// Of pixels per invocation: several, where there are packets.
+    /// Pixels per invocation: several, where there are packets.
     ManyPixelsPerInvocation,
-    /// Of pixels per invocation: one, since a CPU driver ends loops after so many iterations.
+    /// Pixels per invocation: one, since a CPU driver ends loops after so many iterations.
     LongPixels,
-    /// Of tiles: they are as large as they get.
+    /// Tiles: they are as large as they get.
     LightTiles,
-    /// Of tiles: larger ones could take a submission longer than a second or two.
+    /// Tiles: larger ones could take a submission longer than a second or two.
     HeavyTiles {
         /// Side of a tile without that, pixels.
         largest: u32,

@@ -38,7 +38,7 @@ pub(super) fn outside_by(solid: &Solid, point: DVec3) -> f64 {
     }
 }
 
-/// Of any length but zero, whose square need not be a number.
+/// Unit vector along one of any length but zero, whose square need not be a number.
 pub(super) fn unit(vector: DVec3) -> DVec3 {
     (vector / vector.abs().max_element()).normalize()
 }
@@ -80,7 +80,7 @@ fn along_and_across(vector: DVec3, axis: DVec3) -> (f64, f64) {
 pub(super) fn is_lone_and_seen_from_outside(scene: &Scene) -> bool {
     let [primitive] = &scene.primitives[..] else { return false };
     let camera = scene.camera.position;
-    // Kernels take an origin within 8u of size and place for inside: 5e-7 in f32.
+    // Kernels take an origin within 8u of size and position for inside: 5e-7 in f32.
     const SURELY: f64 = 1e-5;
     let place = (camera - primitive.solid.position()).length();
     outside_by(&primitive.solid, camera) > SURELY * (size(&primitive.solid) + place)

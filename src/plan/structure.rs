@@ -6,7 +6,7 @@ use crate::settings::RenderSettings;
 /// How the nearest solid is found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Structure {
-    /// Every solid's proxy is tried by every ray.
+    /// Every solid's proxy is tested by every ray.
     None,
     /// Boxes around every eight solids, around every eight boxes, and so on: so many levels.
     Hierarchy {

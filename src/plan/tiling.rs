@@ -13,7 +13,7 @@ pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decisi
     Decision { choice, reason }
 }
 
-/// Of so many solids, those that a ray of the accurate kernel tries: as a rule no more than one level of boxes can
+/// Of so many solids, those that a ray of the accurate kernel tests: as a rule no more than one level of boxes can
 /// hold. Rays that go far among solids of all kinds, as in `cloud-10000`, take ten times that, and a tile there some 60
 /// ms on two cores; those among a million spheres on a plane are as quick as among a hundred.
 pub fn tried_under_boxes(solids: usize) -> usize {
@@ -22,7 +22,7 @@ pub fn tried_under_boxes(solids: usize) -> usize {
 
 /// Side of a tile, pixels: at most `max`, and so small that one submission makes no more than about 2²⁸ intersection
 /// tests, if that leaves it 64 pixels. Every ray is taken to go through all generations, with a shadow ray a light
-/// each, and to try so many solids.
+/// each, and to test so many solids.
 /// 2²⁸ tests take lavapipe on two cores a second or two: so long may Ctrl-C and the progress bar wait; on a small GPU
 /// they stay far below the seconds after which a driver takes it for hung.
 pub fn tile_side(max: u32, tried: usize, lights: usize, max_depth: u32) -> u32 {

@@ -15,7 +15,7 @@ pub const MOST_PIXELS: u32 = 8;
 /// More solids are not looked at: that takes time by the square of their number.
 const MOST_SOLIDS: usize = 512;
 
-/// Solids that a ray may have to solve exactly besides those that it may meet at one place: a proxy that it touches in
+/// Solids that a ray may have to solve exactly besides those that it may meet at one point: a proxy that it touches in
 /// passing.
 const TOUCHED: usize = 1;
 
@@ -25,8 +25,8 @@ const AROUND: u64 = 4;
 /// What a ray may have to do among some primitives.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TraversalCost {
-    /// Of one search and the solve after it, in half of the boxes, times how many of these at most; `None` among more
-    /// primitives than are looked at.
+    /// Iterations of one search and the solve after it, in half of the boxes, times how many of these at most; `None`
+    /// among more primitives than are looked at.
     iterations: Option<u64>,
 }
 
@@ -41,7 +41,7 @@ impl TraversalCost {
         // take two or three is not counted.
         let groups = |solids: usize| solids.div_ceil(Structure::GROUP - 1).div_ceil(2) as u64;
         let search: u64 = SolidKind::ALL.into_iter().map(|kind| groups(count(kind))).sum();
-        // A box that is rotated is tried by the axis-aligned box around it, which a ray may meet for nothing.
+        // A box that is rotated is tested by the axis-aligned box around it, which a ray may meet for nothing.
         let rotated_boxes = primitives.iter().filter(|primitive| is_rotated(&primitive.solid)).count();
         let solved = 1 + TOUCHED + most_in_one_place(primitives) + rotated_boxes;
         Self { iterations: Some((search + AROUND) * solved as u64) }

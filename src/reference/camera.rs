@@ -3,14 +3,14 @@ use glam::{DVec2, DVec3};
 use super::ray::Ray;
 use crate::scene::{Camera, Projection};
 
-/// The rays through a picture's pixel centres (docs/course-work.md, «Primary rays»).
+/// The rays through a picture's pixel centres (docs/course-work.md, "Primary rays").
 pub struct PrimaryRays {
     position: DVec3,
     /// Unit vectors in the world frame: to the left of the picture, up, and along the optical axis.
     left: DVec3,
     up: DVec3,
     ahead: DVec3,
-    /// Of the centred window in the plane at distance 1.
+    /// Half extent of the centred window in the plane at distance 1.
     half_extent: DVec2,
     projection: Projection,
     picture_size: DVec2,

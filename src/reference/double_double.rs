@@ -1,7 +1,7 @@
 //! Double-double arithmetic: numbers of about 106 significant bits as unevaluated sums of two `f64`.
 //!
-//! Algorithms and error bounds: Joldeş, Muller, Popescu, «Tight and rigorous error bounds for basic building blocks of
-//! double-word arithmetic», ACM TOMS 44(2), 2017; u = 2⁻⁵³ below. They hold while no product falls under 2⁻⁹⁶⁹ or
+//! Algorithms and error bounds: Joldeş, Muller, Popescu, "Tight and rigorous error bounds for basic building blocks of
+//! double-word arithmetic", ACM TOMS 44(2), 2017; u = 2⁻⁵³ below. They hold while no product falls under 2⁻⁹⁶⁹ or
 //! overflows: lengths from about 1e-130 to 1e130 are safe in every formula of this module's users.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};

@@ -1,4 +1,5 @@
-//! The truth that the kernels are measured against: the accurate model (docs/light-model.md) in plain `f64` on the CPU.
+//! Ground truth that the kernels are measured against: the accurate model (docs/light-model.md) in plain `f64` on the
+//! CPU.
 //!
 //! Ray–solid intersections are solved in double-double and rounded once, so that a hit is that of the stored ray and
 //! the stored solid; directions, normals and shading are `f64`. Nothing here is shared with the kernels.
@@ -89,7 +90,7 @@ pub enum RenderError {
 
 /// Renders a scene, in parallel over rows on rayon's current pool.
 ///
-/// `progress` is told after each row how many are done, from any thread and not necessarily in order; its
+/// `progress` gets the number of rows done after each row, from any thread and not necessarily in order; its
 /// [`ControlFlow::Break`] cancels.
 pub fn render(
     scene: &Scene,

@@ -13,7 +13,7 @@ impl Solids {
         Self::about(DVec3::ZERO, primitives)
     }
 
-    /// Rays, hits and lights are given as seen from this place of the world frame, without a turn.
+    /// Rays, hits and lights are given relative to this point of the world frame, without a turn.
     pub(super) fn about(origin: DVec3, primitives: &[Primitive]) -> Self {
         Self(primitives.iter().map(|primitive| PreparedSolid::new(&primitive.solid, origin)).collect())
     }
@@ -36,7 +36,7 @@ impl Solids {
         nearest
     }
 
-    /// How far a place is above the plane of the face that was hit, 0 in it to rounding; `None` of a curved face.
+    /// How far a point is above the plane of the face that was hit, 0 in it to rounding; `None` of a curved face.
     pub fn height_above(&self, hit: &Hit, place: DVec3) -> Option<f64> {
         self.0[hit.primitive as usize].height_above(hit.face, hit.side, place)
     }
@@ -47,7 +47,7 @@ impl Solids {
         self.reachable(origin_surface).any(|(_, solid, origin)| solid.hides(light_position, &ray, origin))
     }
 
-    /// Of the solids that a ray begins in, the one that it leaves first; a tie goes to the lowest index.
+    /// The solid that a ray leaves first of those that it begins in; a tie goes to the lowest index.
     pub(super) fn innermost(&self, ray: &Ray, origin_surface: OriginSurface) -> Option<u32> {
         let exits = self.reachable(origin_surface).filter_map(|(index, solid, origin)| {
             let hit = solid.first_hit(ray, origin)?;

@@ -5,7 +5,7 @@ use glam::DVec3;
 pub struct Ray {
     /// Finite, or the ray meets nothing.
     pub origin: DVec3,
-    /// Of any length whose square is a positive finite `f64`; distances along the ray count in this length.
+    /// Vector of any length whose square is a positive finite `f64`; distances along the ray count in this length.
     pub direction: DVec3,
 }
 
@@ -23,14 +23,14 @@ pub enum Side {
 pub enum Face {
     /// The sphere, the cylinder's body, the cone's side.
     Curved,
-    /// Of a box: where the coordinate of this box axis (0, 1, 2) is +half size or −half size.
+    /// Face of a box: where the coordinate of this box axis (0, 1, 2) is +half size or −half size.
     Slab {
-        /// Of the box's own frame.
+        /// Axis of the box's own frame.
         axis: u8,
         /// Whether it is +half size.
         positive: bool,
     },
-    /// Of a cylinder: the base about `ends[0]` or `ends[1]`.
+    /// Base of a cylinder about `ends[0]` or `ends[1]`.
     End(u8),
     /// The cone's base disk.
     Base,
@@ -85,7 +85,7 @@ pub enum OriginSurface {
     Surface {
         /// Index into `Scene::primitives`.
         primitive: u32,
-        /// Of that primitive, where the point lies on it.
+        /// Face of that primitive, where the point lies on it.
         face: Face,
         /// Into which the ray leaves.
         side: Side,

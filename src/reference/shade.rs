@@ -117,8 +117,8 @@ impl<'a> World<'a> {
         if mirror_weight >= through_weight { [through, mirror] } else { [mirror, through] }
     }
 
-    /// The refractive index about a ray's origin: of the solid that it is in and straight on leaves first, 1 where it is
-    /// in none.
+    /// The refractive index about a ray's origin: of the solid that it is in and straight on leaves first, 1 where it
+    /// is in none.
     fn medium_about(&self, ray: &Ray, origin_surface: OriginSurface) -> f64 {
         if !self.has_transmission {
             return 1.0;
@@ -197,7 +197,7 @@ fn is_plate(solid: &Solid) -> bool {
     matches!(solid, Solid::Box { half_size, .. } if half_size.min_element() == 0.0)
 }
 
-/// From where places are counted, so that a rounded one is not off by more than solids are small: the world's origin,
+/// Origin of positions, so that a rounded one is not off by more than solids are small: the world's origin,
 /// or the camera where solids are less than a millionth of its coordinates.
 fn origin(scene: &Scene) -> DVec3 {
     const FAR: f64 = 1e6;

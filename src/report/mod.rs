@@ -27,16 +27,23 @@ use crate::validation::Outcome;
 /// What a page is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
+    /// Where it was measured.
     pub machine: Machine,
+    /// When measuring began.
     pub begun: Timestamp,
     /// Less of everything, for a slow device.
     pub is_quick: bool,
+    /// Every device with what was found out by trying it.
     pub devices: Section<Vec<TriedDevice>>,
+    /// Error maps of scenes of the gallery.
     pub maps: Section<Vec<NamedMaps>>,
     /// `None` before anything is drawn.
     pub validation: Section<Option<Outcome>>,
+    /// Catalogue of extremes.
     pub stability: Section<Stability>,
+    /// Table 4.1 of the course work.
     pub fps: Section<FpsTable>,
+    /// Price of accuracy.
     pub trade: Section<Trade>,
 }
 
@@ -47,6 +54,7 @@ pub struct Section<T> {
     pub commands: Vec<String>,
     /// As much of it as there is.
     pub content: T,
+    /// Whether all of it is there, and why not.
     pub ending: Ending,
     /// Wall time that it took.
     pub time: Duration,
@@ -55,7 +63,9 @@ pub struct Section<T> {
 /// How the measuring of a section ended.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Ending {
+    /// Nothing of it is measured.
     NotBegun,
+    /// All of it is measured.
     Complete,
     /// By Ctrl-C.
     Stopped,
@@ -73,16 +83,20 @@ impl<T> Section<T> {
 /// The error maps of a scene of the gallery.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NamedMaps {
+    /// Name of the scene, as in the gallery.
     pub name: String,
-    /// One line each.
+    /// What the scene shows, in one line.
     pub english: String,
+    /// The same in Russian.
     pub russian: String,
+    /// Picture of the scene and its errors, one map a kernel.
     pub maps: SceneMaps,
 }
 
 /// The catalogue of extremes.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Stability {
+    /// One a case and kernel.
     pub rows: Vec<crate::measure::stability::Row>,
     /// The error maps worth looking at.
     pub sheet: Option<Frame>,
@@ -91,8 +105,10 @@ pub struct Stability {
 /// Why there is no page.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
+    /// A picture could not be encoded.
     #[error(transparent)]
     Frame(#[from] FrameError),
+    /// A chart could not be drawn.
     #[error(transparent)]
     Output(#[from] OutputError),
 }

@@ -6,7 +6,7 @@ use maud::{Markup, Render, html};
 
 use crate::measure::output::{Entry, Table, Words};
 
-/// One text in both languages, of which the page shows one.
+/// One text in both languages; the page shows one of them.
 pub fn both(english: impl Render, russian: impl Render) -> Markup {
     html! {
         span.en lang="en" { (english) }

@@ -33,7 +33,7 @@ pub fn body(trade: &Trade) -> Result<Markup, ReportError> {
 fn of_scene(trade: &Trade, scene: &SceneTrade) -> Result<Markup, ReportError> {
     let conditions = &trade.conditions;
     let figures = figures(scene, conditions);
-    // Its own chart: a panel a scene stands where the scene is told of.
+    // Its own chart: a panel a scene stands where the scene is described.
     let alone = Trade { machine: trade.machine.clone(), conditions: conditions.clone(), scenes: vec![scene.clone()] };
     let drawn = picture::chart(&chart(&alone).to_svg()?, &format!("{}: time of a frame against error", scene.scene));
     let settings = settings(scene, &figures);

@@ -36,7 +36,7 @@ fn half_length(a: DVec3, b: DVec3) -> f64 {
     (b * 0.5 - a * 0.5).length()
 }
 
-/// The largest coordinate of a solid, seen from a place; world lengths.
+/// The largest coordinate of a solid, relative to an origin; world lengths.
 pub fn farthest_coordinate(primitives: &[Primitive], origin: DVec3) -> f64 {
     let farthest = |primitive: &Primitive| {
         let sphere = BoundingSphere::of(&primitive.solid);

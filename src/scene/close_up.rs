@@ -1,8 +1,8 @@
-//! Solids as a close-up has them: told from an anchor, which is where they are nearest to the camera.
+//! Solids as a close-up has them: relative to an anchor, which is where they are nearest to the camera.
 //!
-//! A solid much larger than the way to the camera is told from its centre by numbers whose rounding alone is more than
-//! that way. From an anchor nearby, a sphere's surface is offset + slope·x + |x|²/(2·radius) = 0, whose terms are all
-//! as small as x; and so is a cylinder's, across its axis.
+//! A solid much larger than the way to the camera is given relative to its centre by numbers whose rounding alone is
+//! more than that way. From an anchor nearby, a sphere's surface is offset + slope·x + |x|²/(2·radius) = 0, whose terms
+//! are all as small as x; and so is a cylinder's, across its axis.
 //!
 //! Scene space, the camera at its origin. Anchors are points in `f32`, so that rounding takes nothing from them; the
 //! rest is computed for them in `f64`.
@@ -43,7 +43,7 @@ impl SphereNearby {
     }
 }
 
-/// A box between planes across its axes, told by their places from the anchor.
+/// A box between planes across its axes, given by their positions from the anchor.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct BoxNearby {
     pub anchor: DVec3,
@@ -61,7 +61,7 @@ impl BoxNearby {
     }
 }
 
-/// A cylinder between its ends, told by their places along the axis from the anchor.
+/// A cylinder between its ends, given by their positions along the axis from the anchor.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CylinderNearby {
     pub anchor: DVec3,

@@ -29,7 +29,8 @@ impl Scene {
 }
 
 impl Solid {
-    /// The point that [`Solid::move_to`] moves: centre of a sphere or box, apex of a cone, middle of a cylinder's axis.
+    /// The point that [`Solid::move_to`] moves: centre of a sphere or box, apex of a cone, midpoint of a cylinder's
+    /// axis.
     pub fn position(&self) -> DVec3 {
         match self {
             Self::Sphere { center, .. } | Self::Box { center, .. } => *center,
@@ -51,7 +52,7 @@ impl Solid {
     }
 
     /// Turns by (a, b, c) degrees, the course's «Повернуть»: a box takes the angles as its pose; a cylinder is turned
-    /// about its middle and a cone about its apex, on from where they are, by p ↦ Rz(−c)·Ry(−b)·Rx(−a)·p.
+    /// about its midpoint and a cone about its apex, on from where they are, by p ↦ Rz(−c)·Ry(−b)·Rx(−a)·p.
     pub fn rotate(&mut self, degrees: DVec3) {
         let turn = rotation_z(-degrees.z) * rotation_y(-degrees.y) * rotation_x(-degrees.x);
         match self {
@@ -74,7 +75,7 @@ pub fn world_from_box(rotation_degrees: DVec3) -> DMat3 {
     rotation_x(-rotation_degrees.x) * rotation_y(-rotation_degrees.y) * rotation_z(-rotation_degrees.z)
 }
 
-/// From a cylinder's middle to its second end.
+/// From a cylinder's midpoint to its second end.
 fn half_axis(ends: &[DVec3; 2]) -> DVec3 {
     (ends[1] - ends[0]) * 0.5
 }

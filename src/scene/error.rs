@@ -25,7 +25,7 @@ pub(super) enum SceneErrorCause {
 }
 
 impl SceneError {
-    /// A fault of the input whose place is not known yet.
+    /// A fault of the input whose position is not known yet.
     pub(super) fn refused(what: String) -> Self {
         Self { path: None, line: None, what, cause: SceneErrorCause::Input }
     }

@@ -22,7 +22,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// Of the course work.
+    /// Exponent of the course work.
     pub const COURSE_SHININESS: f64 = 5.0;
 
     /// By the course work's coefficients alone, which is without refraction.

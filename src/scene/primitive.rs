@@ -25,13 +25,13 @@ impl Primitive {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum SolidKind {
-    /// Told by its centre and radius.
+    /// Given by its centre and radius.
     Sphere,
-    /// Told by its centre, half sizes and three angles.
+    /// Given by its centre, half sizes and three angles.
     Box,
-    /// Told by the centres of its bases and its radius.
+    /// Given by the centres of its bases and its radius.
     Cylinder,
-    /// Told by its apex, axis, height and angle.
+    /// Given by its apex, axis, height and angle.
     Cone,
 }
 
@@ -73,7 +73,7 @@ pub enum Solid {
     Cylinder {
         /// Centres of the two bases.
         ends: [DVec3; 2],
-        /// Of both bases; world units.
+        /// Radius of both bases; world units.
         radius: f64,
     },
     /// One nappe from the apex to the base disk at `height` along `axis`.

@@ -18,7 +18,7 @@ pub struct SceneSpace {
     pub scale: f64,
     /// Half of the largest coordinate of a solid or of a ray's origin, kernel lengths.
     pub reach: f32,
-    /// The origin is the camera, and solids are told from where they are nearest to it.
+    /// The origin is the camera, and solids are relative to their points nearest to it.
     pub is_close_up: bool,
 }
 
@@ -39,7 +39,7 @@ impl SceneSpace {
         Extent::of(&scene.primitives).frame(scene.camera.position)
     }
 
-    /// The space of a close-up: what rounding loses goes by how far things are from the camera.
+    /// The space of a close-up: rounding errors scale with the distance from the camera.
     pub fn close_up(scene: &Scene) -> Self {
         let origin = scene.camera.position;
         let extent = Extent { origin, farthest: farthest_coordinate(&scene.primitives, origin) };
@@ -82,7 +82,7 @@ const ROUND_UP: f64 = 0.618;
 
 impl Extent {
     /// The origin is where solids are small and many, since that is where what rounding a coordinate loses would show:
-    /// the mean of the middles weighed by 1/size, without the outer quarters, to whole steps of a few sizes. One solid
+    /// the mean of the centres weighed by 1/size, without the outer quarters, to whole steps of a few sizes. One solid
     /// edited among many hardly ever moves it, nor does a ground a million times as large as all that stands on it.
     pub fn of(primitives: &[Primitive]) -> Self {
         let stride = primitives.len().div_ceil(SAMPLE).max(1);
@@ -119,7 +119,7 @@ fn power_of_two_below(number: f64) -> f64 {
     number.log2().floor().clamp(-1022.0, 1022.0).exp2()
 }
 
-/// Of pairs of a number and its weight; 0 of none.
+/// Interquartile mean of pairs of a number and its weight; 0 of none.
 fn interquartile_mean(mut weighted: Vec<(f64, f64)>) -> f64 {
     weighted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
     // Relative to the largest, so that their sum is a number.

@@ -129,7 +129,7 @@ impl RenderSettings {
         Ok(setting)
     }
 
-    /// Writes the file, whole or not at all, below `comment`, which tells where the setting comes from.
+    /// Writes the file, whole or not at all, below `comment`, which says where the setting comes from.
     pub fn save(&self, path: &Path, comment: &str) -> Result<(), SettingsError> {
         let write = || -> io::Result<()> {
             let text = toml::to_string(self).map_err(io::Error::other)?;

@@ -29,7 +29,7 @@ pub struct RenderSettings {
     pub max_depth: Option<u32>,
     /// Whether rays find solids by boxes around them, or look at each.
     pub boxes: bool,
-    /// Of a pixel. See [`sampling`].
+    /// Samples of a pixel. See [`sampling`].
     pub samples: u32,
     /// Size of the traced picture against the one asked for.
     pub scale: f64,

@@ -7,11 +7,11 @@
 //!
 //! The mean is kept in `f32`, from sample to sample, mₖ = mₖ₋₁ + (cₖ − mₖ₋₁)·wₖ, wₖ the `f32` nearest to 1/k: three
 //! rounded operations, the same on every device. With all colours in [0, M] and u = 2⁻²⁴ each step adds at most (1 +
-//! 3/k)·u·M, of which the later steps leave k/n: after n samples the mean is off by at most ((n + 1)/2 + 3)·u·M, to
+//! 3/k)·u·M, and the later steps leave k/n of it: after n samples the mean is off by at most ((n + 1)/2 + 3)·u·M, to
 //! first order.
 
-/// Of a pixel, along each side: a sample's ray is that of a pixel of a picture that is so many times as wide and high.
-/// Odd, so that the middle one's ray is the pixel's own.
+/// Sub-pixels along each side of a pixel: a sample's ray is that of a pixel of a picture so many times as wide and
+/// high. Odd, so that the central one's ray is the pixel's own.
 pub const SUBPIXELS: u32 = 65;
 
 /// Most samples a pixel.
@@ -20,15 +20,15 @@ pub const MAX_SAMPLES: u32 = PLACES.len() as u32;
 /// Smallest size of the traced picture against the one shown.
 pub const MIN_SCALE: f64 = 0.25;
 
-/// Where in the pixel its samples lie, sub-pixels from its top left: the first n are the places of n samples, and the
-/// first is the pixel's centre.
+/// Where in the pixel its samples lie, sub-pixels from its top left: the first n are the positions of n samples, and
+/// the first is the pixel's centre.
 ///
-/// Each place is chosen, the earlier ones being what they are, so that the mean square error of the share of the pixel
-/// that lies on one side of a straight edge becomes least: over edges of all directions and places (by Crofton's
-/// formula that error is the energy distance between the samples and the square, made of |a − b|), plus half over
-/// those along the rows and columns alone (|aₓ − bₓ| + |a_y − b_y|). The RMS error of the share is 0.23 for 1 sample, 0.11
-/// for 4, 0.037 for 16 and 0.013 for 64, where Sobol's points, shifted to begin at the centre, have 0.13, 0.048 and
-/// 0.014 for 4, 16 and 64.
+/// Each position is chosen, the earlier ones being what they are, so that the mean square error of the share of the
+/// pixel that lies on one side of a straight edge becomes least: over edges of all directions and positions (by
+/// Crofton's formula that error is the energy distance between the samples and the square, made of |a − b|), plus half
+/// over those along the rows and columns alone (|aₓ − bₓ| + |a_y − b_y|). The RMS error of the share is 0.23 for 1
+/// sample, 0.11 for 4, 0.037 for 16 and 0.013 for 64, where Sobol's points, shifted to begin at the centre, have 0.13,
+/// 0.048 and 0.014 for 4, 16 and 64.
 const PLACES: [[u8; 2]; 64] = [
     [32, 32],
     [17, 17],
@@ -99,7 +99,7 @@ const PLACES: [[u8; 2]; 64] = [
 /// How finely a picture is traced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sampling {
-    /// Of each pixel, 1 to [`MAX_SAMPLES`].
+    /// Samples of each pixel, 1 to [`MAX_SAMPLES`].
     pub samples: u32,
     /// Size of the traced picture against the one shown, [`MIN_SCALE`] to 1.
     pub scale: f64,
@@ -132,13 +132,13 @@ impl Sampling {
         }
     }
 
-    /// Of the picture that is traced for one of `size`, pixels.
+    /// Size of the picture that is traced for one of `size`, pixels.
     pub fn traced_size(self, size: [u32; 2]) -> [u32; 2] {
         size.map(|side| ((f64::from(side) * self.scale).round() as u32).clamp(1, side))
     }
 }
 
-/// Of the sample with this index, sub-pixels from the pixel's top left.
+/// Position of the sample with this index, sub-pixels from the pixel's top left.
 pub fn sample_place(index: u32) -> [u32; 2] {
     PLACES[index as usize].map(u32::from)
 }
@@ -147,7 +147,7 @@ pub fn sample_place(index: u32) -> [u32; 2] {
 mod tests {
     use super::*;
 
-    /// Of two places, pixels.
+    /// Of two points, pixels.
     fn distance([x, y]: [f64; 2]) -> f64 {
         x.hypot(y) + (x.abs() + y.abs()) / 2.0
     }
@@ -163,12 +163,12 @@ mod tests {
         let potentials: Vec<_> = all.iter().map(|&place| from_all(place)).collect();
         let mut from_chosen = vec![0.0; all.len()];
         for index in 0..MAX_SAMPLES {
-            // What of the energy distance of the first index + 1 places goes by the last one.
+            // What of the energy distance of the first index + 1 positions depends on the last one.
             let energy = |at: usize| 2.0 * f64::from(index + 1) * potentials[at] - 2.0 * from_chosen[at];
             let chosen = sample_place(index);
             let at = (chosen[1] * SUBPIXELS + chosen[0]) as usize;
             let least = (0..all.len()).map(energy).fold(f64::INFINITY, f64::min);
-            // Places that mirror each other differ by rounding alone: sums of 65² terms below 3, times 128.
+            // Positions that mirror each other differ by rounding alone: sums of 65² terms below 3, times 128.
             assert!(energy(at) - least < 1e-9, "sample {index}: {} is not {least}", energy(at));
             from_chosen.iter_mut().zip(&all).for_each(|(sum, &place)| *sum += between(place, chosen));
         }

@@ -124,7 +124,7 @@ impl Canvas {
         self.remake(in_flight, size, self.sampling)
     }
 
-    /// Other samples a pixel or another scale; where they are others, which is told, the picture is to be
+    /// Other samples a pixel or another scale; returns whether they are others; then the picture is to be
     /// [asked for](Canvas::show) again.
     ///
     /// # Errors
@@ -257,18 +257,18 @@ impl Canvas {
         self.uploaded_bytes
     }
 
-    /// Reads the times of what was submitted from this place of the ring and has ended.
+    /// Reads the times of what was submitted from this slot of the ring and has ended.
     pub fn collect(&mut self, place: usize) -> Result<(), GpuError> {
         self.timing.collect(place)
     }
 
-    /// Collects what is in flight, in its order, before a submission of another kind takes a place of the ring.
+    /// Collects what is in flight, in its order, before a submission of another kind takes a slot of the ring.
     fn collect_all(&mut self, in_flight: &mut InFlight) -> Result<(), GpuError> {
         in_flight.wait_for_all()?;
         in_flight.places().into_iter().try_for_each(|place| self.collect(place))
     }
 
-    /// Records the next chunk, if there is any, for a submission from this place of the ring, which is
+    /// Records the next chunk, if there is any, for a submission from this slot of the ring, which is
     /// [collected](Canvas::collect).
     pub fn record(&mut self, recorder: &mut Recorder, place: usize) -> Result<(), GpuError> {
         self.clear(recorder);

@@ -11,19 +11,19 @@ const BLOCK: [u32; 2] = [WORKGROUP[0], MOST_PIXELS * WORKGROUP[1]];
 /// not yet traced anew lies between rows that are, and chunks of it cost much the same.
 #[derive(Debug)]
 pub(super) struct Sweep {
-    /// Of the picture, pixels.
+    /// Size of the picture, pixels.
     size: [u32; 2],
-    /// Of blocks.
+    /// Blocks in a row.
     columns: u32,
     /// Rows of blocks, in their turn.
     rows: Vec<u32>,
-    /// Place in the sequence of all blocks.
+    /// Position in the sequence of all blocks.
     next: u64,
     left: u64,
 }
 
 impl Sweep {
-    /// Of a picture of so many pixels, with nothing left to do.
+    /// A sweep of a picture of so many pixels, with nothing left to do.
     pub fn new(size: [u32; 2]) -> Self {
         let [columns, rows] = [0, 1].map(|axis| size[axis].div_ceil(BLOCK[axis]));
         let bits = u32::BITS - rows.saturating_sub(1).leading_zeros();
@@ -93,10 +93,11 @@ impl Pace {
     /// Before anything is known: little even at eight milliseconds each, more than the slowest kernel took on two
     /// cores.
     const FIRST_BLOCKS: u64 = 2;
-    /// The next rows may be dearer than the last: the pace rises no faster than this, and falls at once.
+    /// The next rows may be more expensive than the last: the pace rises no faster than this, and falls at once.
     const LARGEST_RISE: u64 = 4;
 
-    /// Of what a dear chunk tells about the next: rows differ tenfold, and after a cheap one comes a dear one again.
+    /// Decay of the estimated time from chunk to chunk: rows differ tenfold, and after a cheap one comes an expensive
+    /// one again.
     const MEMORY: f64 = 0.7;
 
     pub fn new() -> Self {

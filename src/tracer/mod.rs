@@ -36,15 +36,24 @@ pub enum TracerError {
     /// The scene or the settings are not for this kernel.
     #[error("{0}")]
     Refused(String),
+    /// The caller broke the work off.
     #[error("stopped")]
     Stopped,
+    /// A driver that runs on the CPU ended loops early: pixels would be wrong.
     #[error(
         "device '{device}' gave up on {pixels} pixels, as Mesa's CPU drivers do where a pixel takes more than 65535 \
          iterations of loops; fewer primitives or generations are needed there"
     )]
-    LoopLimitReached { device: String, pixels: usize },
+    LoopLimitReached {
+        /// Name of the device.
+        device: String,
+        /// Number of pixels without a colour.
+        pixels: usize,
+    },
+    /// A call of Vulkan failed.
     #[error(transparent)]
     Gpu(#[from] GpuError),
+    /// A frame of a size that cannot be, or no memory for it.
     #[error(transparent)]
     Frame(#[from] FrameError),
 }
@@ -182,7 +191,7 @@ impl Tracer {
         Ok(gpu_time_ns)
     }
 
-    /// Tells whether pixels were traced otherwise before.
+    /// Returns whether pixels were traced otherwise before.
     fn trace_one_by_one(&mut self) -> Result<bool, TracerError> {
         let is_other = self.renderer.trace_one_by_one()?;
         if is_other {
@@ -191,7 +200,7 @@ impl Tracer {
         Ok(is_other)
     }
 
-    /// What was read back of a tile, into its place in `frame`.
+    /// What was read back of a tile, into its position in `frame`.
     fn take_pixels(&mut self, tile: Tile, frame: &mut Frame) -> Result<(), TracerError> {
         let idle = self.commands.idle()?;
         let pixels: &[[f32; 4]] = bytemuck::cast_slice(self.target.pixels.bytes(&idle)?);

@@ -11,7 +11,7 @@ pub(super) fn pixel_buffer(device: &Arc<Device>, name: &str, [width, height]: [u
     Ok(Resource::from(&Arc::new(Buffer::new(device, name, BufferKind::Pixels, bytes)?)))
 }
 
-/// Of a square picture that fits, pixels.
+/// Side of the largest square picture that fits, pixels.
 pub(super) fn largest_side(device: &DeviceDescription) -> u32 {
     let most_pixels = device.max_storage_bytes / PIXEL_BYTES;
     device.max_image_side.min(u32::try_from(most_pixels.isqrt()).unwrap_or(u32::MAX))

@@ -19,6 +19,7 @@ use crate::scene::{Light, Primitive, Scene, SceneSpace, Solid, farthest_coordina
 /// What is known of a probed ray's origin. The course kernel knows nothing of it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum From {
+    /// No surface: the ray begins anywhere.
     Space,
     /// This solid's surface, left to this side.
     Own(Face, Side),
@@ -29,25 +30,31 @@ pub enum From {
 /// World frame.
 #[derive(Debug, Clone, Copy)]
 pub struct ProbeRay {
+    /// World frame.
     pub origin: DVec3,
-    /// Of length 1.
+    /// Unit vector, world frame.
     pub direction: DVec3,
-    /// Index of the one solid to try.
+    /// Index of the one solid to test.
     pub solid: usize,
+    /// Where the ray begins.
     pub from: From,
 }
 
 /// World frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ProbeHit {
+    /// Distance from the origin along the ray, world lengths.
     pub t: f64,
+    /// World frame.
     pub point: DVec3,
+    /// Normal of the surface there, world frame.
     pub normal: DVec3,
-    /// Of the accurate model; the course kernel tells neither.
+    /// Face and side by the accurate model; the course kernel reports neither.
     pub surface: Option<(Face, Side)>,
 }
 
 impl ProbeHit {
+    /// Whether distance, point and normal are free of infinities and NaNs.
     pub fn is_finite(&self) -> bool {
         self.t.is_finite() && self.point.is_finite() && self.normal.is_finite()
     }

@@ -11,8 +11,8 @@ use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, StorageImage};
 use crate::scene::Scene;
 
-/// What an algorithm does on a device. Scenes come in states: one is prepared on the host, taken up by a submission, and
-/// drawn until the next is taken up.
+/// What an algorithm does on a device. Scenes come in states: one is prepared on the host, taken up by a submission,
+/// and drawn until the next is taken up.
 pub(super) trait Algorithm {
     /// A scene as the kernels take it, for a picture of one size.
     type State: State;
@@ -45,8 +45,8 @@ pub(super) trait Algorithm {
     /// is not the first, those before are there.
     fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, state: &Self::State, sample: Sample);
 
-    /// From now on each pixel is traced by itself, not several by an invocation in turn; tells whether that is another
-    /// way than before, for which binding sets are out of date.
+    /// From now on each pixel is traced by itself, not several by an invocation in turn; returns whether that is
+    /// another way than before, for which binding sets are out of date.
     fn trace_one_by_one(&mut self) -> Result<bool, GpuError> {
         Ok(false)
     }
@@ -54,7 +54,7 @@ pub(super) trait Algorithm {
 
 /// What a driver asks of a state.
 pub(super) trait State: PartialEq {
-    /// Of each pixel.
+    /// Samples of each pixel.
     fn samples(&self) -> u32;
 
     /// Linear RGB.
@@ -147,7 +147,7 @@ pub(super) trait Renderer {
     fn bind(&self, picture: &Resource) -> Result<Option<Arc<BindingSet>>, GpuError>;
     /// Samples a pixel of the scene taken up; `None` without one.
     fn samples(&self) -> Option<u32>;
-    /// Of the scene prepared last, linear RGB; `None` without one.
+    /// Background of the scene prepared last, linear RGB; `None` without one.
     fn background(&self) -> Option<[f32; 3]>;
     /// See [`Algorithm::record`]; nothing without a scene.
     fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, sample: Sample);

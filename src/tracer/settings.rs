@@ -10,6 +10,7 @@ use crate::settings::sampling::Sampling;
 pub struct Settings {
     /// Pixels.
     pub width: u32,
+    /// Pixels.
     pub height: u32,
     /// In place of the scene's.
     pub max_depth: Option<u32>,
@@ -18,6 +19,7 @@ pub struct Settings {
     pub max_tile_side: u32,
     /// Pixels of a workgroup along x and y.
     pub workgroup: [u32; 2],
+    /// Algorithm and precision.
     pub kernel: Kernel,
     /// What is left out; the course kernel leaves out nothing.
     pub approximations: Approximations,
@@ -28,7 +30,7 @@ pub struct Settings {
     /// in place of what [suits the scene](crate::plan::TraversalCost::pixels_per_invocation). What that may not change
     /// is tested with it.
     pub pixels: Option<u32>,
-    /// Of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See
+    /// Samples of each pixel, whose colour is their mean; 1 to 64. The course kernel takes 1. See
     /// [`Sampling`].
     pub samples: u32,
     /// Size of the picture that is traced against the one asked for, to which it is brought by bilinear interpolation;

@@ -12,7 +12,7 @@ use crate::plan::{tile_side, tried_under_boxes};
 use crate::scene::Scene;
 
 pub(super) struct Target {
-    /// Of the picture asked for.
+    /// Tiles of the picture asked for.
     pub tiles: Vec<Tile>,
     /// A tile as it is traced.
     pub traced: Resource,
@@ -23,7 +23,7 @@ pub(super) struct Target {
     /// The same.
     pub read_back: Resource,
     scale: f64,
-    /// Of the largest tile that they hold, pixels as traced.
+    /// Side of the largest tile that they hold, pixels as traced.
     traced_side: u32,
 }
 
@@ -75,7 +75,7 @@ impl Target {
     }
 }
 
-/// Of what one submission traces, pixels: at most `limit`.
+/// Side of what one submission traces, pixels: at most `limit`.
 fn traced_side(scene: &Scene, settings: &Settings, limit: u32) -> u32 {
     let max_tile_side = settings.max_tile_side.clamp(1, limit);
     let solids = scene.primitives.len();
@@ -84,7 +84,7 @@ fn traced_side(scene: &Scene, settings: &Settings, limit: u32) -> u32 {
     tile_side(max_tile_side, tried, scene.lights.len(), settings.generations(scene))
 }
 
-/// Of the tile made from that, but for the neighbours that its edge needs.
+/// Side of the tile made from that, but for the neighbours that its edge needs.
 fn shown_side(traced_side: u32, scale: f64, device: &Device) -> u32 {
     ((f64::from(traced_side) / scale) as u32).min(device.description().max_image_side)
 }

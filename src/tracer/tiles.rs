@@ -22,7 +22,7 @@ impl Tile {
         Self { x: 0, y: 0, width, height }
     }
 
-    /// Puts `pixels`, the tile's rows as RGBA, in their place in `frame`; alpha is dropped.
+    /// Puts `pixels`, the tile's rows as RGBA, at their position in `frame`; alpha is dropped.
     pub fn copy_pixels(&self, pixels: &[[f32; 4]], frame: &mut Frame) {
         let (tile_width, frame_width) = (self.width as usize, frame.width() as usize);
         let rows = pixels.chunks_exact(tile_width).take(self.height as usize);

@@ -56,7 +56,7 @@ impl Upscaler {
         [0, 1].map(|axis| most_traced(tile[axis], self.size[axis], self.traced_size[axis]))
     }
 
-    /// Makes a tile from its [part](Upscaler::traced_tile) of the smaller picture, of which the top left pixel lies in
+    /// Makes a tile from its [part](Upscaler::traced_tile) of the smaller picture, whose top left pixel lies in
     /// that of the image `traced`.
     fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, [picture, traced]: [&Resource; 2], tile: Tile) {
         let part = self.traced_tile(tile);

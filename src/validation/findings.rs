@@ -5,13 +5,13 @@ use crate::gpu::{Message, Messages, Remark, Severity};
 /// Messages of one id and severity.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Group {
-    /// Of all of them.
+    /// Severity of all of them.
     pub severity: Severity,
     /// The layer's, mostly of a rule of the specification (VUID).
     pub id: String,
     /// How often they came.
     pub count: usize,
-    /// Of the first message.
+    /// Text of the first message.
     pub text: String,
     /// What was done when they came, each once.
     pub runs: Vec<String>,
@@ -27,7 +27,7 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Of all groups.
+    /// Number of messages in all groups.
     pub fn count(&self) -> usize {
         self.groups.iter().map(|group| group.count).sum()
     }

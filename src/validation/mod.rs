@@ -5,7 +5,7 @@ mod off_screen;
 mod outcome;
 mod runs;
 mod selection;
-pub mod tables;
+pub(crate) mod tables;
 
 pub use findings::{Findings, Group};
 pub use off_screen::{Observe, OffScreen, Program, draw_off_screen};

@@ -20,7 +20,7 @@ pub struct Outcome {
     pub height: u32,
     /// False after Ctrl-C or a failure.
     pub complete: bool,
-    /// Of every kind of validation that was asked for.
+    /// Checks of every kind of validation that was asked for.
     pub checks: Vec<TriedCheck>,
     /// First those off screen, then those in a window.
     pub passes: Vec<Pass>,
@@ -28,7 +28,7 @@ pub struct Outcome {
     pub no_window: Option<String>,
     /// What plans turn on or off, with the runs of a pass that have it so.
     pub switches: Vec<Switch>,
-    /// Of all groups.
+    /// Number of messages in all groups.
     pub message_count: usize,
     /// What is at fault, in the order of their first messages.
     pub messages: Vec<Group>,
@@ -36,14 +36,14 @@ pub struct Outcome {
     pub remarks: Vec<Remarked>,
 }
 
-/// A check that was tried out before it was relied on.
+/// A check that was tested before it was relied on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 pub struct TriedCheck {
     /// Name of the kind that asks for it.
     pub validation: &'static str,
-    /// Which should have told of the mistake.
+    /// Which should have reported the mistake.
     pub check: Check,
-    /// Whether a mistake made on purpose was told.
+    /// Whether a mistake made on purpose was reported.
     pub works: bool,
 }
 

@@ -50,7 +50,7 @@ pub struct Run {
     pub name: String,
     /// Shared with other runs of it.
     pub scene: Arc<Scene>,
-    /// Of a picture of [`PICTURE`] pixels.
+    /// Settings of a picture of [`PICTURE`] pixels.
     pub settings: Settings,
     /// Whether the window draws it in no other way.
     pub is_as_in_window: bool,

@@ -76,7 +76,7 @@ fn states(run: &Run) -> Option<[State; 22]> {
         shadows,
         reflections,
         is_close_up,
-        // A scene does not tell how it is sampled, nor whether invocations come in packets.
+        // A scene does not determine how it is sampled, nor whether invocations come in packets.
         samples: _,
         pixels: _,
         pending: _,

@@ -46,7 +46,7 @@ impl Document for Outcome {
 }
 
 impl Group {
-    /// The first runs; of many a few tell enough.
+    /// The first runs; of many a few are enough.
     pub fn met_by(&self) -> String {
         const TOLD: usize = 3;
         let more = self.runs.len().saturating_sub(TOLD);

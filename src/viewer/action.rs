@@ -82,9 +82,9 @@ pub enum Action {
     Quit,
 
     // ---- What a dialog is answered with.
-    /// To «there are unsaved changes».
+    /// To "there are unsaved changes".
     AnswerUnsaved(UnsavedAnswer),
-    /// To «the last run left unsaved work»: whether to take it up.
+    /// To "the last run left unsaved work": whether to take it up.
     AnswerRecover(bool),
     /// Away with a message, or with a question that is not answered.
     CloseDialog,
@@ -94,7 +94,7 @@ pub enum Action {
     SetPreferences(Preferences),
     /// Draws from now on and, but for a settings' file, at the start of the next run.
     SetKernel(Kernel),
-    /// Of the accurate kernel.
+    /// Sampling of the accurate kernel.
     SetSampling(Sampling),
     /// How much of the light model is drawn, but by the course's kernel and a settings' file.
     SetShading(Shading),

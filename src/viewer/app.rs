@@ -35,7 +35,7 @@ pub enum ViewerError {
     /// The device or what is drawn there failed, at the start or later.
     #[error(transparent)]
     Screen(#[from] ScreenError),
-    /// Of the window library, while the window was open.
+    /// Failure of the window library, while the window was open.
     #[error("the window's events came to an end: {0}")]
     Events(EventLoopError),
 }

@@ -15,7 +15,7 @@ const ORBIT_RADIANS_PER_PIXEL: f64 = 0.005;
 /// From the plane normal to `up`: at 90° left and right would be undefined.
 const LARGEST_PITCH_DEGREES: f64 = 89.0;
 
-/// Of the distance to the pivot that one step towards it leaves.
+/// Share of the distance to the pivot that one step towards it leaves.
 const DISTANCE_LEFT_BY_STEP: f64 = 0.9;
 
 /// World units; from the pivot itself no step would lead away again.
@@ -53,7 +53,7 @@ pub fn fly(camera: &mut Camera, wish: Flight, seconds: f64, speed: f64) {
 }
 
 /// Goes around `pivot` by a movement of the mouse (x to the right, y down) as if it took hold of the scene: the pivot
-/// keeps its distance and its place on the picture.
+/// keeps its distance and its position in the picture.
 pub fn orbit(camera: &mut Camera, pivot: DVec3, pixels: DVec2) {
     let pivot_in_camera = world_from_camera(camera).transpose() * (pivot - camera.position);
     turn(camera, pixels.x * ORBIT_RADIANS_PER_PIXEL, -pixels.y * ORBIT_RADIANS_PER_PIXEL);

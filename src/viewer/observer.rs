@@ -1,4 +1,4 @@
-//! What scripts that drive the window are told: a line of JSON for every frame that differs from the last.
+//! What scripts that drive the window read: a line of JSON for every frame that differs from the last.
 
 use std::io::{self, Write};
 
@@ -16,16 +16,16 @@ pub struct Widget {
     pub name: String,
     pub value: String,
     pub is_disabled: bool,
-    /// Of its corners on the window, pixels: left, top, right, bottom.
+    /// Corners on the window, pixels: left, top, right, bottom.
     pub rect: [f64; 4],
 }
 
 /// One frame of the window.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Observation {
-    /// Of the window, pixels.
+    /// Size of the window, pixels.
     pub window: [u32; 2],
-    /// Of the picture's corner, pixels.
+    /// Position of the picture's corner, pixels.
     pub picture_corner: [u32; 2],
     pub picture_size: [u32; 2],
     /// Whether all of the picture is of the scene as it is now.
@@ -72,7 +72,7 @@ impl Observer {
 }
 
 impl Observation {
-    /// What the state alone tells; the rest is for the caller to fill in.
+    /// What the state alone says; the rest is for the caller to fill in.
     pub fn of(state: &State, shown: &Shown, pixels_per_point: f32) -> Self {
         let document = &state.document;
         let corner = shown.picture.min * pixels_per_point;

@@ -80,7 +80,7 @@ fn box_edges(center: DVec3, world_from_unit_box: DMat3) -> Vec<Vec<DVec3>> {
 pub struct Projector {
     position: DVec3,
     camera_from_world: DMat3,
-    /// Of the centred window in the plane at distance 1.
+    /// Half extent of the centred window in the plane at distance 1.
     half_extent: DVec2,
     projection: Projection,
     picture_size: DVec2,

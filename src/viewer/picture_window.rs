@@ -89,7 +89,7 @@ impl ApplicationHandler for Events {
 /// What a picture took.
 #[derive(Debug, Clone, Copy)]
 pub struct Shown {
-    /// Of its tracing; `None` where the device has no timestamps.
+    /// Time of its tracing; `None` where the device has no timestamps.
     pub gpu_time_ns: Option<u64>,
     /// From the picture before to this one, traced and given to the window system.
     pub wall_time: Duration,
@@ -154,8 +154,8 @@ impl<'d> PictureWindow<'d> {
     /// `keep_going` is asked before every submission and can stop the work there.
     ///
     /// # Errors
-    /// The kernel cannot take the scene, the device fails, `keep_going` breaks, the window is closed, or it is not of the
-    /// picture's size any more.
+    /// The kernel cannot take the scene, the device fails, `keep_going` breaks, the window is closed, or it is not of
+    /// the picture's size any more.
     pub fn show(
         &mut self,
         settings: &Settings,

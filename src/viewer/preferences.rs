@@ -11,7 +11,7 @@ use super::own_kernel::OwnKernel;
 use crate::settings::sampling::MAX_SAMPLES;
 use crate::whole_file::WholeFile;
 
-/// Of the file that is read: a few hundred are enough, and a file gone wrong may have any size.
+/// Bytes read of the file at most: a few hundred are enough, and a file gone wrong may have any size.
 const LARGEST_BYTES: u64 = 1 << 16;
 
 /// The platform's folder for what this program remembers, if there is such a folder.
@@ -72,7 +72,8 @@ pub struct Preferences {
     pub waits_for_display: bool,
     /// What draws at first.
     pub kernel: OwnKernel,
-    /// Of each pixel by the accurate kernels, at most: so many there are once nothing has changed for long enough.
+    /// Samples of each pixel by the accurate kernels, at most: so many there are once nothing has changed for long
+    /// enough.
     pub samples: u32,
 }
 

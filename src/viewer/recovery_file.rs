@@ -1,6 +1,6 @@
 //! Unsaved work, kept beside the preferences while there is some: what a run that did not end well leaves to the next.
 //!
-//! It is a scene file, which any command opens, with the place of the document's own file in a comment on top.
+//! It is a scene file, which any command opens, with the path of the document's own file in a comment on top.
 
 use std::fs;
 use std::io::{self, Write};
@@ -44,7 +44,7 @@ mod tests {
         gallery::scene("showcase").unwrap()
     }
 
-    /// A file's place in a folder that goes with the test.
+    /// A file's path in a folder that goes with the test.
     fn place() -> (tempfile::TempDir, PathBuf) {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("recovery.toml");

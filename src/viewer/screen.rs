@@ -15,13 +15,13 @@ use crate::tracer::{Canvas, Kernel, Precision, TracerError};
 /// Why the window cannot go on.
 #[derive(Debug, thiserror::Error)]
 pub enum ScreenError {
-    /// Of the device, or of what traces on it.
+    /// Failure of the device, or of what traces on it.
     #[error(transparent)]
     Tracer(#[from] TracerError),
-    /// Of the library that draws the widgets on the device.
+    /// Failure of the library that draws the widgets on the device.
     #[error("could not draw the widgets: {0}")]
     Widgets(#[from] RendererError),
-    /// Of what scripts are told.
+    /// Failure to write what scripts read.
     #[error("could not write to standard output")]
     Observer(#[from] io::Error),
 }

@@ -28,7 +28,7 @@ const DRAWING: [(&str, &[&Shader]); 2] = [
     ),
 ];
 
-/// Of each build of [`DRAWING`]: the shader, or the compiler's messages.
+/// Outcome of each build of [`DRAWING`]: the shader, or the compiler's messages.
 pub type Outcomes = Vec<Result<Shader, String>>;
 
 /// Watches a folder of sources, such as `glsl/`; dropped, it stops.
@@ -153,7 +153,7 @@ mod tests {
 
     #[test]
     fn a_build_of_the_same_sources_is_what_the_program_has_in_it() {
-        // From where build.rs named them, for the paths are in what a debugger is told.
+        // From where build.rs named them, for the paths are in what a debugger gets.
         let builds = build_all(Path::new("glsl"));
         let own: Vec<_> = DRAWING.iter().flat_map(|(_, own)| *own).collect();
         assert_eq!(builds.len(), own.len());

@@ -22,11 +22,11 @@ pub struct State {
     pub preferences: Preferences,
     /// What draws the picture now, which need not be the usual one.
     pub kernel: Kernel,
-    /// Of the accurate kernels: size of the traced picture against the one shown.
+    /// Scale of the accurate kernels: size of the traced picture against the one shown.
     scale: f64,
-    /// Of the accurate model; see [`State::shading`].
+    /// Shading model of the accurate model; see [`State::shading`].
     shading: Shading,
-    /// Of the settings' file, where there is one.
+    /// Setting of the settings' file, where there is one.
     pub setting: Option<RenderSettings>,
     /// Traces anew though nothing changes, as measuring needs.
     pub is_continuous: bool,
@@ -70,7 +70,7 @@ pub enum Message {
 }
 
 impl Message {
-    /// Of an error, its first line.
+    /// First line of an error.
     fn failure(error: impl ToString) -> Self {
         Self::Failure(error.to_string().lines().next().unwrap_or_default().to_owned())
     }

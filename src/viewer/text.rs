@@ -17,10 +17,10 @@ pub const NO_FIGURE: &str = "—";
 /// The words of one language.
 #[derive(Debug)]
 pub struct Words {
-    /// Of the menu bar.
+    /// Words of the menu bar.
     pub menu: MenuWords,
     pub(super) groups: GroupWords,
-    /// Of the modal dialogs.
+    /// Words of the modal dialogs.
     pub dialogs: DialogWords,
     pub(super) help: HelpWords,
 
@@ -60,7 +60,7 @@ impl KindWords {
     }
 }
 
-/// Of the menu bar.
+/// Words of the menu bar.
 #[derive(Debug)]
 pub struct MenuWords {
     /// Title of the first menu.
@@ -96,7 +96,7 @@ pub struct MenuWords {
     pub(super) keys_and_mouse: &'static str,
 }
 
-/// Of the groups on the right. Capitals begin what stands by itself: titles, buttons, choices.
+/// Words of the groups on the right. Capitals begin what stands by itself: titles, buttons, choices.
 #[derive(Debug)]
 pub(super) struct GroupWords {
     // ---- The course's groups, in its order and its words.
@@ -196,7 +196,7 @@ impl GroupWords {
     }
 }
 
-/// Of the modal dialogs.
+/// Words of the modal dialogs.
 #[derive(Debug)]
 pub struct DialogWords {
     pub(super) error: &'static str,
@@ -240,7 +240,7 @@ pub struct DialogWords {
     pub(super) keep: &'static str,
 }
 
-/// Of the sheet of keys.
+/// Words of the sheet of keys.
 #[derive(Debug)]
 pub(super) struct HelpWords {
     pub(super) title: &'static str,

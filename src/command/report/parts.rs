@@ -197,7 +197,7 @@ pub fn validation(validation: &mut Option<Outcome>, parts: &Parts, progress: &Pr
 }
 
 pub fn stability(stability: &mut Stability, parts: &Parts, device: &Arc<Device>, progress: &Progress) -> Result<()> {
-    /// Of the time, by the catalogue; the rest is the sheet's.
+    /// Share of the time that the catalogue takes; the rest is the sheet's.
     const CATALOGUE: f64 = 0.7;
     let args = &parts.stability;
     let kernels = kernels(args, device.description())?;
@@ -236,7 +236,7 @@ pub fn trade(trade: &mut Trade, parts: &Parts, device: &Arc<Device>, progress: &
         let Trade { conditions, scenes, .. } = &mut *trade;
         let size = [conditions.width, conditions.height];
         let sweep = Sweep::of(&scene, &axes(&parts.trade), &limits_of(device.description()), size)?;
-        /// Of a scene's time.
+        /// Share of a scene's time that the reference takes.
         const TRUTH: f64 = 0.1;
         let truth = true_picture(&scene, size, conditions.target, &|share| at(TRUTH * share, "the reference"))?;
         scenes.push(SceneTrade::new(name, &scene, &sweep));

@@ -8,7 +8,7 @@ use indicatif::ProgressBar;
 use crate::command::interrupt::Listener;
 use crate::command::progress_bar;
 
-/// Of the bar.
+/// Steps of the bar.
 const STEPS: u64 = 10_000;
 
 pub struct Watch {
@@ -26,7 +26,8 @@ impl Watch {
         Self { listener: Listener::start(), bar: progress_bar(STEPS), before: Cell::new(0.0) }
     }
 
-    /// Of the next section. `weight`: the share of the whole that it takes, in any unit that is the same for all.
+    /// Progress of the next section. `weight`: the share of the whole that it takes, in any unit that is the same for
+    /// all.
     pub fn progress(&self, name: &'static str, weight: f64) -> Progress<'_> {
         let before = self.before.replace(self.before.get() + weight);
         Progress { listener: &self.listener, bar: &self.bar, name, before, weight }
@@ -39,7 +40,7 @@ impl Drop for Watch {
     }
 }
 
-/// Of one section.
+/// Progress of one section.
 pub struct Progress<'a> {
     listener: &'a Listener,
     bar: &'a ProgressBar,

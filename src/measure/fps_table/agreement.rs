@@ -6,7 +6,7 @@ use super::Speeds;
 use super::published::{CLAIMED_OF_SPHERES, CLAIMED_ORDER, published};
 use crate::scene::SolidKind;
 
-/// The note's claims, tried on a table. They are about the table's shape: seconds are the machine's.
+/// The note's claims, tested on a table. They are about the table's shape: seconds are the machine's.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Agreement {
     /// The largest number of solids that all kinds were measured with; the note speaks of 100. `None`: there is none,
@@ -70,12 +70,12 @@ impl Agreement {
         }
     }
 
-    /// Kinds of which it is known how the time of a frame bends, and of these the ones that it takes ever more for.
+    /// Numbers of kinds: those whose curve of frame times has a known bend, and those of them where it bends up.
     pub fn ever_slower(&self) -> (usize, usize) {
         tally(self.bends.iter().filter_map(|bend| bend.frame_time), |bend| bend > 0.0)
     }
 
-    /// Kinds of which it is known how the frames a second bend, and of these the ones that lose ever more of them.
+    /// Numbers of kinds: those whose curve of frames a second has a known bend, and those of them where it bends down.
     pub fn ever_steeper(&self) -> (usize, usize) {
         tally(self.bends.iter().filter_map(|bend| bend.frames_per_second), |bend| bend < 0.0)
     }
@@ -93,9 +93,9 @@ fn fastest_first(speeds: &Speeds, count: usize) -> Option<Vec<SolidKind>> {
     Some(order.into_iter().map(|(kind, _)| kind).collect())
 }
 
-/// The parabola of least squares through the points: how far its middle hangs below the chord between its ends, in
+/// The parabola of least squares through the points: how far its midpoint hangs below the chord between its ends, in
 /// parts of the mean of the values. Above 0 the curve bends up. All points count, so that no single one decides.
-/// `None` for fewer than three different places.
+/// `None` for fewer than three different abscissas.
 fn bend(points: &[(f64, f64)]) -> Option<f64> {
     let count = points.len() as f64;
     let mean = |of: &dyn Fn(f64, f64) -> f64| points.iter().map(|&(x, y)| of(x, y)).sum::<f64>() / count;
@@ -108,10 +108,10 @@ fn bend(points: &[(f64, f64)]) -> Option<f64> {
     let first = points.iter().map(|point| point.0).min_by(f64::total_cmp)?;
     let last = points.iter().map(|point| point.0).max_by(f64::total_cmp)?;
     let half = (last - first) / 2.0;
-    // With two places the rest is rounding, some 1e-16 of the half width's square.
+    // With two abscissas the rest is rounding, some 1e-16 of the half width's square.
     let is_determined = rest_squared > (1e-12 * half.powi(2)).powi(2);
     let coefficient = mean(&|x, y| rest(x) * (y - y_mean)) / rest_squared;
-    // y = c·x² hangs c·half² below its chord in the middle.
+    // y = c·x² hangs c·half² below its chord at the midpoint.
     is_determined.then(|| coefficient * half.powi(2) / y_mean)
 }
 

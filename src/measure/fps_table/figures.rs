@@ -8,10 +8,10 @@ use crate::scene::SolidKind;
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figures {
     pub kind: SolidKind,
-    /// Of solids.
+    /// Number of solids.
     pub count: usize,
     pub algorithm: Algorithm,
-    /// Of the median frame; null where the device has no timestamps, as all of the GPU.
+    /// Frames a second by the median GPU time; null where the device has no timestamps, as all of the GPU.
     pub gpu_fps: Option<f64>,
     pub wall_fps: f64,
     pub gpu: Option<Summary>,
@@ -26,7 +26,7 @@ pub struct Figures {
     pub published_of_spheres: Option<f64>,
 }
 
-/// Of every cell, in the order of measuring.
+/// Figures of every cell, in the order of measuring.
 pub fn figures(table: &FpsTable) -> Vec<Figures> {
     let published = published();
     let speeds: Vec<(Algorithm, Speeds)> =

@@ -17,7 +17,7 @@ use crate::measure::output::{Document, OutputError, ReportFormat, Table};
 /// What a table's JSON says it is. The number is raised when an older program could not read it rightly.
 const FORMAT: &str = "zerkalo-fps-2";
 
-/// Of CSV.
+/// Columns of CSV.
 const COLUMNS: &str = "kind,count,kernel=algorithm,\
     gpu_fps,gpu_frames=gpu/count,gpu_median_ns=gpu/median_ns,gpu_first_quartile_ns=gpu/quartiles_ns/0,\
     gpu_third_quartile_ns=gpu/quartiles_ns/1,gpu_min_ns=gpu/min_ns,gpu_max_ns=gpu/max_ns,gpu_stddev_ns=gpu/stddev_ns,\
@@ -57,7 +57,7 @@ struct Data<'a> {
     table: &'a FpsTable,
     /// False after Ctrl-C.
     complete: bool,
-    /// Of the figures that are not said to be by the other.
+    /// Clock of the figures that are not said to be by the other.
     clock: Clock,
     figures: Vec<Figures>,
     agreement: Agreements,

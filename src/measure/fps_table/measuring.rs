@@ -44,7 +44,7 @@ pub fn settings_of(
     Ok(Settings::planned(&planned.map_err(|error| TracerError::Refused(error.to_string()))?))
 }
 
-/// Of an algorithm that is not in the plan.
+/// Error about an algorithm that is not in the plan.
 pub fn no_scene(algorithm: Algorithm) -> TracerError {
     TracerError::Refused(format!("no scene for the {} algorithm", algorithm.name()))
 }

@@ -12,14 +12,13 @@ mod tables;
 
 use serde::{Deserialize, Serialize};
 
-pub use agreement::{Agreement, Bend, Ratio};
-pub use chart::chart;
-pub use figures::{Figures, figures};
-pub use file::FpsTableError;
-pub use measuring::{OffScreen, Stage, measure, no_scene, settings_of};
-pub use published::{CLAIMED_OF_SPHERES, CLAIMED_ORDER, published};
-pub use speeds::Speeds;
-pub use tables::{agreement, spreads};
+pub(crate) use agreement::Agreement;
+pub(crate) use chart::chart;
+pub(crate) use file::FpsTableError;
+pub(crate) use measuring::{OffScreen, Stage, measure, no_scene, settings_of};
+pub(crate) use published::{CLAIMED_OF_SPHERES, published};
+pub(crate) use speeds::Speeds;
+pub(crate) use tables::{agreement, spreads};
 
 use super::{Budget, Clock, Machine, Summary};
 use crate::algorithm::{Algorithm, Kernel, Precision};
@@ -42,13 +41,16 @@ fn kernel_of(algorithm: Algorithm) -> Result<Kernel, TracerError> {
 pub struct Plan {
     /// Pixels.
     pub width: u32,
+    /// Pixels.
     pub height: u32,
-    /// Of a ray.
+    /// Generations of a ray.
     pub generations: u32,
+    /// Kernels, each once.
     #[serde(rename = "kernels")]
     pub algorithms: Vec<Algorithm>,
     /// Numbers of solids, ascending.
     pub counts: Vec<usize>,
+    /// Budget of each kernel in each cell.
     pub budget: Budget,
     /// Whether the validation layers watch, which takes its time.
     pub validation: bool,
@@ -76,7 +78,7 @@ impl Plan {
         (10..=100).step_by(10).collect()
     }
 
-    /// Of solids.
+    /// Smallest number of solids.
     pub fn fewest(&self) -> usize {
         self.counts.first().copied().unwrap_or_default()
     }
@@ -106,9 +108,11 @@ impl Plan {
 /// What one kernel makes of one number of one kind of solids.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Cell {
+    /// Kind of the solids.
     pub kind: SolidKind,
-    /// Of solids.
+    /// Number of solids.
     pub count: usize,
+    /// Kernel that drew it.
     #[serde(rename = "kernel")]
     pub algorithm: Algorithm,
     /// GPU time of every frame but the first, in order; `None` where the device has no timestamps.
@@ -135,7 +139,9 @@ pub fn frames_per_second(frame_time_ns: f64) -> f64 {
 /// What was measured, whole or in part.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct FpsTable {
+    /// Where it was measured.
     pub machine: Machine,
+    /// What belongs in the table.
     pub plan: Plan,
     /// In the order of measuring.
     pub cells: Vec<Cell>,
@@ -147,7 +153,7 @@ impl FpsTable {
         Self { machine, plan, cells: Vec::new() }
     }
 
-    /// The places of the table that lack a kernel, row after row: an interrupted table has whole rows.
+    /// Positions in the table that lack a kernel, row after row: an interrupted table has whole rows.
     pub fn missing(&self) -> Vec<(SolidKind, usize)> {
         let places = self.plan.counts.iter().flat_map(|&count| SolidKind::ALL.map(|kind| (kind, count)));
         places
@@ -162,7 +168,8 @@ impl FpsTable {
         self.cells.extend(cells);
     }
 
-    pub fn cell(&self, kind: SolidKind, count: usize, algorithm: Algorithm) -> Option<&Cell> {
+    /// What is known of a cell; `None`: not measured yet.
+    pub(crate) fn cell(&self, kind: SolidKind, count: usize, algorithm: Algorithm) -> Option<&Cell> {
         self.cells.iter().find(|cell| (cell.kind, cell.count, cell.algorithm) == (kind, count, algorithm))
     }
 
@@ -172,7 +179,7 @@ impl FpsTable {
         if has_gpu_times && !self.plan.in_window { Clock::Gpu } else { Clock::Wall }
     }
 
-    /// Of the median frames of a kernel.
+    /// Speeds by the median frames of a kernel.
     pub fn speeds(&self, algorithm: Algorithm, clock: Clock) -> Speeds {
         let mut speeds = Speeds::default();
         for cell in self.cells.iter().filter(|cell| cell.algorithm == algorithm) {

@@ -84,7 +84,7 @@ fn shown_by(mode: &str) -> String {
     format!("every frame is shown, present mode {mode} ({meaning})")
 }
 
-/// Of a kernel; by the table's own clock, beside the published figures.
+/// Spreads of a kernel's times; by the table's own clock, beside the published figures.
 pub fn spreads(table: &FpsTable, algorithm: Algorithm, clock: Clock) -> Table {
     let published = published();
     let beside = |kind, count| published.get(kind, count).map(figure);

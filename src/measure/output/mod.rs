@@ -102,7 +102,7 @@ pub trait Document {
 
     /// One object on one line.
     fn to_json(&self) -> String {
-        // invariant: structures, lists, numbers and texts, all of which JSON has.
+        // invariant: structures, lists, numbers and texts: JSON has them all.
         serde_json::to_string(&self.data()).expect("what was measured is JSON")
     }
 

@@ -32,7 +32,7 @@ impl<T: ToString> From<T> for Words {
     }
 }
 
-/// A place of a table.
+/// A cell of a table.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Entry {
     /// Not known, or not there.
@@ -68,8 +68,8 @@ pub struct Table {
 }
 
 impl Table {
-    /// For programs: a row a record, which is a tuple of structures. A column is a key of one of them, or stands for what
-    /// follows its `=`: the way there by keys and places. A list is told by its length.
+    /// For programs: a row a record, which is a tuple of structures. A column is a key of one of them, or stands for
+    /// what follows its `=`: the way there by keys and indices. A list is shown by its length.
     pub fn of_records(columns: &str, records: impl IntoIterator<Item = impl Serialize>) -> Self {
         let columns = || columns.split(',').map(|column| column.split_once('=').unwrap_or((column, column)));
         let entry = |record: &Value, way: &str| {
@@ -83,7 +83,7 @@ impl Table {
             }
         };
         let row = |record| {
-            // invariant: structures, lists, numbers and texts, all of which JSON has.
+            // invariant: structures, lists, numbers and texts: JSON has them all.
             let record = serde_json::to_value(record).expect("a record is JSON");
             columns().map(|(_, way)| entry(&record, way)).collect()
         };
@@ -104,8 +104,8 @@ impl Table {
         String::from_utf8(writer.into_inner().expect("memory takes all")).expect("fields are texts")
     }
 
-    /// For people, in English: Markdown whose columns also stand in line in a terminal, the first to the left, the others
-    /// to the right.
+    /// For people, in English: Markdown whose columns also stand in line in a terminal, the first to the left, the
+    /// others to the right.
     pub fn to_markdown(&self) -> String {
         let head = self.head.iter().map(|name| name.english.as_str()).collect();
         let rows = self.rows.iter().map(|row| row.iter().map(|cell| cell.english("–")).collect());

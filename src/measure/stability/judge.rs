@@ -8,7 +8,7 @@ use crate::scene::{Primitive, Solid, world_from_box};
 use crate::tracer::probe::{ProbeHit, ProbeRay};
 use crate::tracer::{Kernel, Precision};
 
-/// A solid in numbers that the kernel stores exactly, with the truth about it.
+/// A solid in numbers that the kernel stores exactly, with the reference's answers about it.
 pub(super) struct Judge {
     pub solid: Solid,
     /// The largest of its lengths.
@@ -86,7 +86,8 @@ impl Judge {
         let cosine = truth.normal.dot(ray.direction).abs();
         let t_error = match precision {
             Precision::F32 => distance(&self.solid, ray.origin, hit.t * ray.direction),
-            // An f64 distance would be no better than what it judges; to first order, the reference's t being rounded.
+            // An f64 distance would be no better than what it validates; to first order, the reference's t being
+            // rounded.
             Precision::F64 => ((hit.t - truth.t).abs() * cosine - half_ulp).max(0.0),
         };
         tally.t = tally.t.max(t_error / t_bar);
@@ -205,7 +206,7 @@ pub fn resized(solid: &Solid, by: f64) -> Option<Solid> {
     }
 }
 
-/// Distance from the surface in plain `f64`, which is enough to judge an `f32`: from inside and near the surface
+/// Distance from the surface in plain `f64`, which is enough to validate an `f32`: from inside and near the surface
 /// exactly, from elsewhere at most. The point is origin + path, summed only beside the solid: far from the world's
 /// origin an `f64` does not hold it.
 pub fn distance(solid: &Solid, origin: DVec3, path: DVec3) -> f64 {

@@ -13,10 +13,11 @@ mod solids;
 mod tables;
 mod trials;
 
-pub use judge::{distance, resized};
+pub use judge::distance;
 pub use sheet::error_sheet;
-pub use tables::{summary, trials};
-pub use trials::{Progress, Row, try_all};
+pub(crate) use tables::{summary, trials};
+pub use trials::Row;
+pub(crate) use trials::try_all;
 
 use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
@@ -30,6 +31,7 @@ use crate::tracer::{Kernel, Tracer, TracerError};
 pub struct Measured {
     /// What, in words.
     pub what: &'static str,
+    /// In the unit of `what`; a NaN passes no bound.
     pub measured: f64,
     /// Passed where `measured` is at most this.
     pub bound: f64,
@@ -56,19 +58,22 @@ impl Measured {
     }
 }
 
-/// A kernel to be tried on a device.
+/// A kernel to be tested on a device.
 pub struct Subject {
+    /// Where the kernel runs.
     pub device: Arc<Device>,
+    /// Algorithm and precision.
     pub kernel: Kernel,
     /// With so few rays and pixels that the whole catalogue takes a minute.
     pub is_quick: bool,
     probe: OnceLock<Probe>,
-    /// Of the last picture, with its size: cases in a row often need the same pipeline, which takes longer to make than
-    /// a picture to draw.
+    /// Tracer of the last picture, with its size: cases in a row often need the same pipeline, which takes longer to
+    /// make than a picture to draw.
     tracer: RefCell<Option<([u32; 2], Tracer)>>,
 }
 
 impl Subject {
+    /// A kernel on a device, with neither a probe nor a tracer made yet.
     pub fn new(device: &Arc<Device>, kernel: Kernel, is_quick: bool) -> Self {
         Self { device: device.clone(), kernel, is_quick, probe: OnceLock::new(), tracer: RefCell::default() }
     }
@@ -85,7 +90,7 @@ impl Subject {
 type Trial = Box<dyn Fn(&Subject) -> Result<Vec<Measured>, TracerError>>;
 type SceneTrial = Box<dyn Fn() -> Vec<Measured>>;
 
-/// How a case is tried.
+/// How a case is tested.
 enum Try {
     /// On a kernel; nothing measured: it is not for that kernel.
     Kernel(Trial),
@@ -142,8 +147,9 @@ impl Case {
 /// What came of a case.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Verdict {
+    /// Everything measured of the case; never empty.
     pub measured: Vec<Measured>,
-    /// Of them, the one nearest to its bound or farthest beyond.
+    /// Measurement nearest to its bound or farthest beyond.
     pub worst: Measured,
 }
 
@@ -154,6 +160,7 @@ impl Verdict {
         Some(Self { measured, worst })
     }
 
+    /// Whether every measurement is within its bound.
     pub fn passes(&self) -> bool {
         self.measured.iter().all(Measured::passes)
     }

@@ -20,7 +20,7 @@ pub(super) fn cases() -> Vec<Case> {
         like_reference("TG-1", balls_in_contact),
         like_reference("CF-1", sharing_cubes),
     ];
-    // Inside a solid, on its surface, and where the middle of the picture meets it.
+    // Inside a solid, on its surface, and where the centre of the picture meets it.
     for (index, z) in [0.0, -1.0, -1.0 - 1e-9].into_iter().enumerate() {
         cases.push(like_reference(&format!("LT-{}", index + 1), move || lit_cube(DVec3::new(0.0, 0.0, z))));
     }
@@ -109,8 +109,8 @@ pub(super) fn like_reference(id: &str, scene: impl Fn() -> Scene + 'static) -> C
     })
 }
 
-/// The same scene at another scale or place is the same picture; of the course kernel too, against its own. Only pixels
-/// that show solids in both count: the light sphere has one size in every scene.
+/// The same scene at another scale or position is the same picture; of the course kernel too, against its own. Only
+/// pixels that show solids in both count: the light sphere has one size in every scene.
 fn moved(subject: &Subject, moves: &[(f64, DVec3)]) -> Result<Vec<Measured>, TracerError> {
     let scene = gallery::scene("four").unwrap_or_default();
     let (size, precision) = (size(subject), subject.kernel.precision());
@@ -208,7 +208,7 @@ fn empty(subject: &Subject) -> Result<Vec<Measured>, TracerError> {
     )])
 }
 
-/// As by brute force: the reference tries each of them for every ray.
+/// As by brute force: the reference tests each of them for every ray.
 fn many(subject: &Subject) -> Result<Vec<Measured>, TracerError> {
     let (count, size) = if subject.is_quick { (10_000, [24, 16]) } else { (100_000, [72, 48]) };
     compared(subject, &cloud(count), size, (size[0] * size[1] / 20) as usize)

@@ -48,7 +48,7 @@ fn count(subject: &Subject) -> usize {
     if subject.is_quick { 1_000 } else { 50_000 }
 }
 
-/// Casts the rays and judges the hits.
+/// Casts the rays and validates the hits.
 fn judged(
     subject: &Subject,
     solid: &Solid,
@@ -83,7 +83,7 @@ fn of_kind(id: String, kind: SolidKind, rays: impl Fn(&Solid, usize, Precision) 
     })
 }
 
-/// One solid with rays that are all given, of which so many hit.
+/// One solid with rays that are all given, so many of them hits.
 fn exact(id: &str, solid: Solid, rays: Vec<(DVec3, DVec3)>, least_hits: usize) -> Case {
     Case::of_kernel(id, move |subject| {
         let mut tally = Tally::default();
@@ -109,7 +109,7 @@ fn grazing_case(number: usize, clearance: f64) -> Case {
             let rays = |solid: &Solid, precision| grazing(solid, 4.0, clearance, count, precision);
             judged(subject, &usual()[kind as usize], rays, &mut tally)?;
         }
-        // Within 10⁻⁷ an f32 does not tell a hit from a miss.
+        // Within 10⁻⁷ an f32 does not distinguish a hit from a miss.
         let is_decided = clearance.abs() > 1e-6 || subject.kernel.precision() == Precision::F64;
         Ok(tally.measured(if clearance < 0.0 && is_decided { 2 * count } else { 0 }))
     })

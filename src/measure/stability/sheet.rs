@@ -17,7 +17,7 @@ use crate::reference;
 use crate::scene::Scene;
 use crate::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
 
-/// Of a map, pixels.
+/// Size of a map, pixels.
 const MAP: [u32; 2] = [240, 180];
 const GAP: u32 = 12;
 const TITLE_HEIGHT: u32 = 40;

@@ -64,7 +64,7 @@ pub(super) fn ray(origin: DVec3, towards: DVec3, precision: Precision) -> ProbeR
     ProbeRay { origin, direction, solid: 0, from: From::Space }
 }
 
-/// `count` rays from places at `distance` sizes around a solid, at points in and just around it.
+/// `count` rays from points at `distance` sizes around a solid, at points in and just around it.
 pub(super) fn rays_at(solid: &Solid, distance: f64, count: usize, precision: Precision) -> Vec<ProbeRay> {
     let (middle, size) = (middle(solid), size(solid));
     (0..count)

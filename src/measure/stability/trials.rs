@@ -12,16 +12,19 @@ use crate::tracer::{Kernel, TracerError};
 /// What came of a case on a kernel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Row {
+    /// Name of the case, such as `SC-1`.
     pub id: String,
-    /// `scene` where the loader is tried, before any kernel.
+    /// `scene` where the loader is tested, before any kernel.
     pub kernel: &'static str,
     /// Null for the loader.
     pub precision: Option<&'static str>,
+    /// Whether all measurements of the case passed.
     pub pass: bool,
-    /// Of all that was measured, what comes nearest to its bound or is farthest beyond.
+    /// Name of the measurement that comes nearest to its bound or is farthest beyond.
     pub what: &'static str,
     /// Null where it is not a number.
     pub measured: f64,
+    /// Largest `measured` that passes.
     pub bound: f64,
 }
 
@@ -51,11 +54,12 @@ pub struct Progress<'a> {
     /// Trials.
     pub done: usize,
     pub all: usize,
-    /// Of the case that is next.
+    /// Name of the case that is next.
     pub id: &'a str,
 }
 
-/// Tries all cases on all kernels. Adds to `rows` as it goes, so that what is tried is there after a failure or a stop.
+/// Tests all cases on all kernels. Adds to `rows` as it goes, so that what is tested is there after a failure or a
+/// stop.
 ///
 /// # Errors
 /// The device fails, or `watch` breaks.

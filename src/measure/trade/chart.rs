@@ -80,7 +80,7 @@ impl Group {
 
 fn panel(scene: &SceneTrade, Trade { conditions, .. }: &Trade) -> Panel {
     let (figures, answers) = (figures(scene, conditions), answers(scene, conditions));
-    // Places among the points, with error and ms; by error.
+    // Indices into the points, with error and ms; by error.
     let drawn = figures.iter().enumerate();
     let drawn = drawn.filter_map(|(place, figures)| Some((place, [figures.largest_error?, figures.time_ns? / 1e6])));
     let mut drawn: Vec<(usize, [f64; 2])> = drawn.collect();

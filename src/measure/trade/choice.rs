@@ -7,7 +7,7 @@ use serde::Serialize;
 pub struct Candidate {
     /// Largest error of a linear channel, measured; infinite where it is not known.
     pub error: f64,
-    /// Of a frame.
+    /// Time of a frame.
     pub time_ns: f64,
     /// Proven bound on what is left out.
     pub bound: Option<f64>,
@@ -23,7 +23,7 @@ pub enum Question {
     Fps(f64),
 }
 
-/// Times that differ by less are as good as the same: a median of a few frames tells no more.
+/// Times that differ by less are as good as the same: a median of a few frames has no more precision.
 const TIE: f64 = 0.03;
 
 /// Errors that differ by less are the same.
@@ -44,7 +44,7 @@ impl Question {
         }
     }
 
-    /// Place of the answer; `None` where no candidate will do.
+    /// Index of the answer; `None` where no candidate will do.
     ///
     /// Among the fastest, which tie, a bound that proves the error goes first, then the smaller error. Among the most
     /// accurate, whose errors are the same, the faster one.
@@ -73,7 +73,7 @@ impl Question {
     }
 }
 
-/// Places of the candidates that could be the answer if their times were measured better, the likeliest first.
+/// Indices of the candidates that could be the answer if their times were measured better, the likeliest first.
 pub fn contenders(question: Question, candidates: &[Candidate]) -> Vec<usize> {
     let by = |key: fn(&Candidate) -> f64, mut places: Vec<usize>| {
         places.sort_by(|&a, &b| key(&candidates[a]).total_cmp(&key(&candidates[b])));

@@ -6,9 +6,9 @@ use crate::settings::RenderSettings;
 /// A point in figures.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Figures {
-    /// Of the setting, in words.
+    /// Name of the setting, in words.
     pub name: String,
-    /// Of a frame: the median ratio to the baseline's frame beside it, times the baseline's median. `None` without
+    /// Time of a frame: the median ratio to the baseline's frame beside it, times the baseline's median. `None` without
     /// samples.
     pub time_ns: Option<f64>,
     pub frames_per_second: Option<f64>,
@@ -16,13 +16,13 @@ pub struct Figures {
     pub quartiles_ns: Option<[f64; 2]>,
     /// In parts of the baseline's time.
     pub ratio: Option<f64>,
-    /// Of the pixels that count; `None` where it is infinite or no number.
+    /// Largest error of the pixels that count; `None` where it is infinite or no number.
     pub largest_error: Option<f64>,
     /// See [`front`].
     pub is_on_front: bool,
 }
 
-/// Of every point of a scene, in the points' order.
+/// Figures of every point of a scene, in the points' order.
 pub fn figures(scene: &SceneTrade, conditions: &Conditions) -> Vec<Figures> {
     let baseline_ns = scene.baseline_ns().unwrap_or_default() as f64;
     let is_on_front = front(&scene.candidates(conditions.counted));

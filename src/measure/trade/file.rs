@@ -14,7 +14,7 @@ use crate::measure::output::{Document, Table};
 /// What the JSON says it is.
 const FORMAT: &str = "zerkalo-trade-1";
 
-/// Of CSV.
+/// Columns of CSV.
 const COLUMNS: &str = "scene,setting=name,kernel=setting/kernel,precision=setting/precision,error=setting/error,\
     max_depth=setting/max_depth,boxes=setting/boxes,samples=setting/samples,scale=setting/scale,\
     time_ns,first_quartile_ns=quartiles_ns/0,third_quartile_ns=quartiles_ns/1,of_baseline=ratio,pairs=samples_ns,\

@@ -1,4 +1,4 @@
-//! Settings on a device: their pictures against the truth, their frames in pairs with the baseline's.
+//! Settings on a device: their pictures against ground truth, their frames in pairs with the baseline's.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -20,10 +20,15 @@ type KeepGoing<'a> = &'a mut dyn FnMut() -> ControlFlow<()>;
 /// What goes on while a scene is measured.
 #[derive(Debug, Clone, Copy)]
 pub enum Step<'a> {
-    /// A part of a frame is drawn: a good place to stop.
+    /// A part of a frame is drawn: a good moment to stop.
     Tile,
-    /// So many settings are done, and this one, whose name it is, is next.
-    Setting { done: usize, name: &'a str },
+    /// The next setting begins.
+    Setting {
+        /// Number of settings measured before.
+        done: usize,
+        /// Name of the setting that is next, in words.
+        name: &'a str,
+    },
 }
 
 /// Measures a sweep on a scene, and once more those settings between which noise may have decided a question. Adds to
@@ -67,7 +72,7 @@ pub fn measure(
     Ok(())
 }
 
-/// A scene on a device with its truth and its baseline, warm.
+/// A scene on a device with its ground truth and its baseline, warm.
 struct Bench<'a> {
     device: &'a Arc<Device>,
     scene: &'a Scene,
@@ -87,7 +92,7 @@ enum Outcome {
 const PATIENCE: Duration = Duration::from_secs(20);
 const PATIENCE_OF_BUDGET: u32 = 20;
 
-/// Of one tracer with the baseline.
+/// Times of one tracer with the baseline.
 #[derive(Default, Clone)]
 struct Pairs {
     baseline_samples_ns: Vec<u64>,
@@ -202,7 +207,7 @@ impl<'a> Bench<'a> {
 
     fn error_of(&self, frame: &Frame) -> PictureError {
         let Truth { image, frame: truth } = self.truth;
-        // invariant: the truth and the frame are of one size, and no mask is empty.
+        // invariant: ground truth and the frame are of one size, and no mask is empty.
         let of_image = image_error(truth, frame, ErrorDomain::Linear, None).expect("pictures of one size");
         let colors: Vec<DVec3> = frame.pixels().iter().map(|pixel| DVec3::from_array(pixel.map(f64::from))).collect();
         let (tolerance, _) = tolerances(Precision::F32);

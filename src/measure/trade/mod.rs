@@ -1,7 +1,8 @@
-//! The price of accuracy: what every setting of a sweep takes and how far its picture is from the truth, on one device
+//! The price of accuracy: what every setting of a sweep takes and how far its picture is from ground truth, on one
+//! device
 //! and one scene.
 //!
-//! The truth is the reference's, of one of two pictures ([`Target`]). Times are GPU times of pairs of frames, one by
+//! Ground truth is the reference's, of one of two pictures ([`Target`]). Times are GPU times of pairs of frames, one by
 //! the baseline and one by the setting, so that whatever slows the machine down slows both: settings are compared by
 //! the ratio of a pair.
 
@@ -18,12 +19,13 @@ mod truth;
 
 use serde::Serialize;
 
-pub use chart::chart;
-pub use choice::{Candidate, Question, contenders, front};
-pub use figures::{Answer, Figures, answers, figures};
+pub(crate) use chart::chart;
+pub use choice::Question;
+pub(crate) use choice::{Candidate, contenders, front};
+pub(crate) use figures::{Answer, Figures, answers, figures};
 pub use measuring::{Step, measure};
 pub use sweep::{Axes, Planned, Sweep};
-pub use tables::{asked, settings};
+pub(crate) use tables::{asked, settings};
 pub use truth::{Truth, TruthError, truth};
 
 use super::{Budget, Clock, ImageError, Machine, median, quartiles};
@@ -34,26 +36,18 @@ use crate::settings::RenderSettings;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Target {
-    /// Of the points in the middle of the pixels.
+    /// Colours at the centres of the pixels.
     #[default]
     Point,
-    /// Of the pixels' areas: the mean of 8x8 points on a grid in each.
+    /// Colours of the pixels' areas: the mean of 8x8 points on a grid in each.
     Area,
-}
-
-impl Target {
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Point => "point",
-            Self::Area => "area",
-        }
-    }
 }
 
 /// Which pixels' largest error is the error of a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Counted {
+    /// Discontinuities count, too.
     #[default]
     AllPixels,
     /// Without discontinuities: pixels beside one whose ray goes another way.
@@ -65,24 +59,29 @@ pub enum Counted {
 pub struct Conditions {
     /// Pixels.
     pub width: u32,
+    /// Pixels.
     pub height: u32,
+    /// What errors are measured against.
     pub target: Target,
+    /// Which pixels decide.
     pub counted: Counted,
-    /// Of a setting's pairs.
+    /// Budget of a setting's pairs.
     pub budget: Budget,
     /// Whether the validation layers watch, which takes its time.
     pub validation: bool,
+    /// Answered for every scene.
     pub questions: Vec<Question>,
 }
 
-/// How far a picture is from the truth.
+/// How far a picture is from ground truth.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PictureError {
-    /// Of linear values over all pixels, as `zerkalo compare` tells it.
+    /// Error of linear values over all pixels, as `zerkalo compare` reports it.
     #[serde(flatten)]
     pub image: ImageError,
     /// Largest error of a channel off discontinuities; `None` where it is not finite.
     pub max_abs_off_discontinuities: Option<f64>,
+    /// Number of pixels beside one whose ray takes another path.
     pub discontinuity_pixels: usize,
     /// Those that are more than 1/510 off.
     pub differing_discontinuity_pixels: usize,
@@ -98,7 +97,7 @@ impl PictureError {
         largest.unwrap_or(f64::INFINITY)
     }
 
-    /// Of the discontinuity pixels, those that differ; 0 where there are none.
+    /// Share of the discontinuity pixels that differ; 0 where there are none.
     pub fn differing_share(&self) -> f64 {
         self.differing_discontinuity_pixels as f64 / self.discontinuity_pixels.max(1) as f64
     }
@@ -107,13 +106,16 @@ impl PictureError {
 /// A setting, measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Point {
+    /// What was asked for.
     pub setting: RenderSettings,
     /// What it leaves out changes no linear channel by more: proven, rounding not in it. `None` where nothing is
     /// proven.
     pub bound: Option<f64>,
+    /// Against the target.
     pub error: PictureError,
-    /// Of pairs of frames, in order: the baseline's and the setting's.
+    /// Times of pairs of frames, in order: the baseline's and the setting's.
     pub baseline_samples_ns: Vec<u64>,
+    /// GPU or wall time of the setting's frames, by the scene's clock.
     pub samples_ns: Vec<u64>,
 }
 
@@ -128,7 +130,9 @@ impl Point {
 /// A setting that was not measured.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LeftOut {
+    /// What was asked for.
     pub setting: RenderSettings,
+    /// Why not, in one line.
     pub reason: String,
 }
 
@@ -137,13 +141,15 @@ pub struct LeftOut {
 pub struct SceneTrade {
     /// Name or file.
     pub scene: String,
+    /// Number of solids.
     pub solids: usize,
     /// Generations of a ray by the scene.
     pub max_depth: u32,
-    /// Of the samples.
+    /// Clock of the samples.
     pub clock: Clock,
     /// In the order of measuring; the baseline, measured against itself, is the first.
     pub points: Vec<Point>,
+    /// Settings that were not measured.
     pub left_out: Vec<LeftOut>,
     /// False after Ctrl-C.
     pub complete: bool,
@@ -163,7 +169,7 @@ impl SceneTrade {
         }
     }
 
-    /// Of all the baseline's frames.
+    /// Median of all the baseline's frames; `None` where nothing is measured.
     pub fn baseline_ns(&self) -> Option<u64> {
         median(&self.points.iter().flat_map(|point| point.baseline_samples_ns.iter().copied()).collect::<Vec<_>>())
     }
@@ -188,7 +194,10 @@ impl SceneTrade {
 /// What was measured, whole or in part.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Trade {
+    /// Where it was measured.
     pub machine: Machine,
+    /// Same for all scenes.
     pub conditions: Conditions,
+    /// In the order of measuring.
     pub scenes: Vec<SceneTrade>,
 }

@@ -1,4 +1,4 @@
-//! Which settings are tried on a scene. Pure: no Vulkan.
+//! Which settings are tested on a scene. Pure: no Vulkan.
 
 use super::{LeftOut, Target};
 use crate::algorithm::{ALGORITHMS, Algorithm, Description, Precision};
@@ -10,6 +10,7 @@ use crate::tracer::Settings;
 /// What is varied.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Axes {
+    /// Kernels, each in all its precisions.
     pub algorithms: Vec<Algorithm>,
     /// Allowed errors, besides none.
     pub errors: Vec<f64>,
@@ -17,10 +18,11 @@ pub struct Axes {
     pub generations: Vec<u32>,
     /// Samples a pixel, besides 1.
     pub samples: Vec<u32>,
-    /// Of the traced picture, besides 1.
+    /// Scales of the traced picture, besides 1.
     pub scales: Vec<f64>,
+    /// What errors are measured against.
     pub target: Target,
-    /// Of all settings.
+    /// Shading model of all settings.
     pub shading: Shading,
 }
 
@@ -39,7 +41,7 @@ impl Axes {
             shading: Shading::Whitted,
             generations: vec![1, 2, 3, 4, 6, 8, 12, 16, 24, 32],
             samples: match target {
-                // More than the one in the middle are farther from what is there.
+                // More than the one in the centre are farther from what is there.
                 Target::Point => Vec::new(),
                 Target::Area => vec![2, 4, 8, 16, 32, 64],
             },
@@ -52,7 +54,9 @@ impl Axes {
 /// A setting with what it comes to on a scene.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Planned {
+    /// What was asked for.
     pub setting: RenderSettings,
+    /// What the tracer is given for it.
     pub settings: Settings,
     /// See [`Point::bound`](super::Point::bound).
     pub bound: Option<f64>,
@@ -61,7 +65,7 @@ pub struct Planned {
 /// The settings to measure, the baseline first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sweep {
-    /// Exactly by the accurate kernel in `f32`: what `zerkalo render` does unless told otherwise, or the scene needs
+    /// Exactly by the accurate kernel in `f32`: what `zerkalo render` does by default, or the scene needs
     /// `f64`.
     pub baseline: Planned,
     /// Without the baseline; no two of them draw the same picture in the same way.

@@ -11,12 +11,12 @@ use crate::frame::{Frame, FrameError};
 use crate::reference::{self, Image64, PrimaryRays, RenderError, World};
 use crate::scene::Scene;
 
-/// Of a pixel's area, the points along each side that stand for it.
+/// Points along each side of a pixel that stand for its area.
 const AREA_SIDE: u32 = 8;
 
 /// A true picture.
 pub struct Truth {
-    /// Its colours are the target's; hits and paths are those of the pixels' middles for either target.
+    /// Its colours are the target's; hits and paths are those of the pixels' centres for either target.
     pub image: Image64,
     /// The same as the kernels' frames are stored.
     pub frame: Frame,
@@ -25,8 +25,10 @@ pub struct Truth {
 /// Why there is none.
 #[derive(Debug, thiserror::Error)]
 pub enum TruthError {
+    /// The reference could not render the scene, or was stopped.
     #[error(transparent)]
     Render(#[from] RenderError),
+    /// A frame of a size that cannot be, or no memory for it.
     #[error(transparent)]
     Frame(#[from] FrameError),
 }
@@ -38,7 +40,7 @@ pub fn truth(
     target: Target,
     progress: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
 ) -> Result<Truth, TruthError> {
-    // Rows of points, those in the middles first.
+    // Rows of points, those in the centres first.
     let passes = match target {
         Target::Point => 1,
         Target::Area => 1 + AREA_SIDE * AREA_SIDE,
@@ -56,14 +58,14 @@ pub fn truth(
     Ok(Truth { image, frame })
 }
 
-/// Puts the mean over each pixel's area in the place of its colour.
+/// Puts the mean over each pixel's area in place of its colour.
 fn average(
     scene: &Scene,
     image: &mut Image64,
     progress: &(dyn Fn(u32) -> ControlFlow<()> + Sync),
 ) -> Result<(), RenderError> {
     let world = World::new(scene);
-    // The middles of the pixels of a picture so many times as fine.
+    // The centres of the pixels of a picture so many times as fine.
     let rays = PrimaryRays::new(&scene.camera, AREA_SIDE * image.width, AREA_SIDE * image.height);
     let color = |column: u32, row: u32| world.look_along(rays.through(column, row)).color;
     let mean = |column: u32, row: u32| {

@@ -7,7 +7,7 @@ use glam::{DVec3, Vec3};
 /// Scene space.
 #[derive(Debug, Clone, Copy)]
 pub struct Ray {
-    /// Of the camera good to 48 bits, else a point of `f32`.
+    /// Camera position good to 48 bits, else a point of `f32`.
     pub origin: DVec3,
     /// Unit, to a few units in the last place.
     pub direction: Vec3,
@@ -17,23 +17,23 @@ pub struct Ray {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Face {
     Curved,
-    /// Of a box.
+    /// Face of a box.
     Slab {
         axis: usize,
         positive: bool,
     },
-    /// Of a cylinder: the second, or the first.
+    /// End of a cylinder: the second, or the first.
     End {
         positive: bool,
     },
-    /// Of a cone.
+    /// Base of a cone.
     Base,
 }
 
 /// A ray's line about its point closest to a solid's anchor.
 #[derive(Debug, Clone, Copy)]
 pub struct Line {
-    /// Of the ray, from the anchor.
+    /// Origin of the ray, from the anchor.
     pub origin: Vec3,
     pub closest: DVec3,
     pub direction: Vec3,
@@ -76,7 +76,7 @@ impl Line {
     }
 }
 
-/// A line about its place nearest to an axis through the anchor.
+/// A line about its point nearest to an axis through the anchor.
 #[derive(Debug, Clone, Copy)]
 pub struct AxisLine {
     pub line: Line,

@@ -23,7 +23,7 @@ pub struct F32Hit {
     pub point: Vec3,
     /// Unit, towards the side the ray came from.
     pub normal: Vec3,
-    /// Of the solid.
+    /// Size of the solid.
     pub size: f32,
     pub face: Face,
     pub inside: bool,

@@ -31,21 +31,21 @@ use world::F32World;
 pub enum Rounding {
     /// Lengths are too near each other for anything that it could show.
     Mild,
-    /// No more than a stray one of the pixels that were tried is changed.
+    /// No more than a stray one of the pixels that were tested is changed.
     Harmless {
         /// Pixels all over the picture.
         tried: usize,
     },
-    /// So many of the pixels that were tried are changed by more than [`Precision::rounding_tolerance`].
+    /// So many of the pixels that were tested are changed by more than [`Precision::rounding_tolerance`].
     Harmful {
-        /// Those that were tried and are changed.
+        /// Those that were tested and are changed.
         wrong: usize,
         /// Pixels all over the picture.
         tried: usize,
         /// Looked for among the solids on the wrong pixels' paths.
         cause: Cause,
     },
-    /// Lengths differ by `ratio`, and to try pixels would take too long: solids, lights and generations are too many.
+    /// Lengths differ by `ratio`, and to test pixels would take too long: solids, lights and generations are too many.
     Unknown {
         /// How many times the smallest length the scene is.
         ratio: f64,
@@ -77,7 +77,7 @@ pub enum Near {
     },
     /// The camera, where it is nearer to that surface than any other primitive is wide.
     Camera {
-        /// Of that surface from it, or less.
+        /// Distance from the camera to that surface, or less.
         distance: f64,
     },
     /// Nothing is, but curved mirrors magnify it.
@@ -118,17 +118,17 @@ impl fmt::Display for Short {
     }
 }
 
-/// What is tried.
+/// What is tested.
 const F32: Kernel = Kernel::Whitted(Precision::F32);
 
-/// Pixels that are tried, at most and, where that takes no longer than a second or so, at least.
+/// Pixels that are tested, at most and, where that takes no longer than a second or so, at least.
 const MOST_TRIED: usize = 2048;
 const FEWEST_TRIED: usize = 64;
 
 /// Solids times rays.
 const MOST_WORK: f64 = (1_u64 << 25) as f64;
 
-/// Why pixels are tried.
+/// Why pixels are tested.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Doubt {
     Lengths,
@@ -137,13 +137,13 @@ enum Doubt {
 }
 
 impl Doubt {
-    /// How many of the pixels that are tried may be wrong.
+    /// How many of the pixels that are tested may be wrong.
     fn allowed(self, tried: usize) -> usize {
         let share = match self {
             // Of a picture with 5 in 1000 wrong, more than that of 2048 are, with a probability of 99.7 %; of fewer,
             // with a lower one.
             Self::Lengths => 0.001,
-            // Single pixels at the edges of images in images, which `f64` would be dear for.
+            // Single pixels at the edges of images in images, which `f64` would be too expensive for.
             Self::Mirrors => 0.005,
         };
         ((share * tried as f64) as usize).max(1)
@@ -161,7 +161,7 @@ const MILD_SHIFT_PIXELS: f64 = 0.25;
 /// are nearer to each other than most.
 const MIRROR_GAIN: f64 = 5.0;
 
-/// For a picture of so many pixels in `depth` generations, silhouettes of which that are seen directly move by no more
+/// For a picture of so many pixels in `depth` generations, whose silhouettes that are seen directly move by no more
 /// than `shift_pixels`.
 pub fn of_f32(lengths: &Lengths, depth: u32, size: [u32; 2], shift_pixels: f64) -> Rounding {
     let scene = lengths.scene;
@@ -173,7 +173,7 @@ pub fn of_f32(lengths: &Lengths, depth: u32, size: [u32; 2], shift_pixels: f64) 
     let are_lengths_mild = shift_pixels <= MILD_SHIFT_PIXELS && ratio <= MILD_RATIO;
     let are_mirrors_mild = ratio * gain_of_mirrors(scene, depth) <= MILD_RATIO_IN_MIRRORS;
     if lets_light_through {
-        // The paths that are tried know no refraction.
+        // The paths that are tested know no refraction.
         let is_mild = are_lengths_mild && !has_grazing_light(lengths);
         return if is_mild { Rounding::Mild } else { Rounding::Unknown { ratio } };
     }
@@ -291,7 +291,7 @@ mod tests {
     use super::*;
     use crate::scene::gallery;
 
-    /// Whether it is mild or not; but for those that let light through, which are not tried.
+    /// Whether it is mild or not; but for those that let light through, which are not tested.
     #[test]
     fn every_scene_of_the_gallery_is_right_in_f32() {
         for entry in gallery::entries() {

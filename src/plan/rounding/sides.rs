@@ -46,7 +46,7 @@ impl F32Curve {
     }
 }
 
-/// A cylinder's body cut by its ends, whose places along the axis are `low` and `high`.
+/// A cylinder's body cut by its ends, whose positions along the axis are `low` and `high`.
 pub fn between_ends(body: Interval, at: &AxisLine, axis: DVec3, [low, high]: [f32; 2]) -> Interval {
     let end = |positive| Face::End { positive };
     let slab = Interval::between_planes(at.along, at.along_slope, (low, end(false)), (high, end(true)));
@@ -60,7 +60,7 @@ pub fn between_ends(body: Interval, at: &AxisLine, axis: DVec3, [low, high]: [f3
     inside
 }
 
-/// Of a cylinder, without its ends.
+/// Interval of a cylinder, without its ends.
 pub fn body(at: &AxisLine, radius: f32) -> Interval {
     let b = at.offset.dot(at.slope);
     let distance = at.offset.length();
@@ -78,7 +78,7 @@ pub fn body(at: &AxisLine, radius: f32) -> Interval {
     Interval::curved(low, high)
 }
 
-/// Of a cone, without its base.
+/// Interval of a cone, without its base.
 pub fn nappe(at: &AxisLine, sine: f32, cosine: f32) -> Interval {
     let difference = |x: f32, y: f32| (cosine * x - sine * y) * (cosine * x + sine * y);
     let (offset, along) = (at.offset, at.along);

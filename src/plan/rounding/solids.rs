@@ -117,8 +117,8 @@ impl F32Solid {
         }
     }
 
-    /// Distance from a point inside to the surface, negative outside, and so many times what the point's place may be
-    /// off: in a close-up by what it may be across each face.
+    /// Distance from a point inside to the surface, negative outside, and so many times what the point's position may
+    /// be off: in a close-up by what it may be across each face.
     pub fn depth(&self, from_anchor: Vec3, place: f32, errors: f32) -> f32 {
         let error = errors * SURFACE_ERROR;
         let simply = error * (place + self.size());
@@ -159,7 +159,7 @@ impl F32Solid {
         }
     }
 
-    /// What the rounding of a hit goes by: the solid's size, in a close-up the way from the anchor.
+    /// What the rounding of a hit scales with: the solid's size, in a close-up the way from the anchor.
     pub fn size_at(&self, point: Vec3) -> f32 {
         match *self {
             Self::SphereNearby { anchor, .. }

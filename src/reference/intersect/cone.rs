@@ -10,7 +10,7 @@ pub struct Cone {
     /// Unit vector from the apex to the base.
     axis: DoubleDouble3,
     height: DoubleDouble,
-    /// Of the half-angle.
+    /// Sine of the half-angle.
     sin: DoubleDouble,
     cos: DoubleDouble,
 }
@@ -73,7 +73,7 @@ impl Cone {
             let (low, high) = ordered_roots(a, b, c, discriminant.max(DoubleDouble::ZERO).sqrt());
             return Some(half_line(if ahead_is_down { high } else { low }));
         }
-        // Parallel to the side: 2b·s + c ≤ 0, and b = −z·dz at the closest point, so that the sign of b tells whether
+        // Parallel to the side: 2b·s + c ≤ 0, and b = −z·dz at the closest point, so that the sign of b shows whether
         // the line enters this nappe. b = 0 is the line through the apex, along the side itself.
         let enters_this_nappe = (b < DoubleDouble::ZERO) == ahead_is_down;
         if b == DoubleDouble::ZERO {

@@ -1,7 +1,7 @@
 //! Ray against one solid: every solid is convex, so a ray's line meets it in one interval with a face at each end.
 //!
-//! The line is first recentred at its point closest to the solid's anchor (docs/numerics.md, «One idea for all four
-//! solids»), then the interval is solved about that point. All of it is done in double-double: the answer is that of
+//! The line is first recentred at its point closest to the solid's anchor (docs/numerics.md, "One idea for all four
+//! solids"), then the interval is solved about that point. All of it is done in double-double: the answer is that of
 //! the stored ray and solid, rounded once, for silhouettes, needle cones and origins 10¹² radii away alike.
 
 mod cone;
@@ -27,7 +27,7 @@ const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 const SOLVE_ERROR: f64 = UNIT_ROUNDOFF * UNIT_ROUNDOFF * 67_108_864.0;
 
 /// Bounds the distance of a rounded hit point to any surface through the exact one, relative to |point| + size
-/// (docs/numerics.md, «Leaving a surface»).
+/// (docs/numerics.md, "Leaving a surface").
 const SURFACE_ERROR: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// A ray's line about its point closest to a solid's anchor.
@@ -257,7 +257,7 @@ impl PreparedSolid {
         }
     }
 
-    /// How far a place is from the plane of a face, on this side of it; `None` of a curved face. A place that lies in
+    /// How far a point is from the plane of a face, on this side of it; `None` of a curved face. A point that lies in
     /// the plane to rounding is not on either side: 0.
     pub fn height_above(&self, face: Face, side: Side, place: DVec3) -> Option<f64> {
         let from_anchor = DoubleDouble3::from(place) - self.anchor;
@@ -283,7 +283,7 @@ impl PreparedSolid {
     }
 
     /// At least half of the greatest depth that the line reaches from its origin on: depth is concave along a chord,
-    /// and this is the depth at its middle.
+    /// and this is the depth at its midpoint.
     fn deepest_ahead(&self, line: &RecentredLine, interval: Interval) -> f64 {
         let start = interval.near.s.max(-line.t_closest);
         let middle = (start + interval.far.s) * 0.5;

@@ -106,9 +106,9 @@ fn least_version(scene: &Scene) -> u32 {
     }
 }
 
-/// Of a light without attenuation; a constant is greater than 0.
+/// Distance constant of a light without attenuation; others are greater than 0.
 const NO_CONSTANT: f64 = 0.0;
-/// Of a material that reflects as its highlight weighs.
+/// Reflection of a material whose reflection is its specular coefficient.
 const AS_SPECULAR: f64 = -1.0;
 
 struct Writer {
@@ -199,7 +199,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Scene, Fault> {
 
 struct Reader<'b> {
     bytes: &'b [u8],
-    /// Of what is read next.
+    /// Offset of what is read next.
     offset: usize,
     version: u32,
     /// That belongs to this.

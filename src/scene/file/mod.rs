@@ -24,7 +24,7 @@ enum FileKind {
     Zscene,
 }
 
-/// Of text.
+/// Format of text.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Format {
     Toml,

@@ -140,7 +140,7 @@ impl Random {
         DVec3::from_array(std::array::from_fn(|_| self.number(low, high)))
     }
 
-    /// Of length 1, in any direction alike.
+    /// Unit vector, all directions alike.
     fn axis(&mut self) -> DVec3 {
         loop {
             let vector = self.vector(-1.0, 1.0);

@@ -24,7 +24,7 @@ impl Image {
     }
 }
 
-/// Of this size, pixels.
+/// Both images, of this size in pixels.
 pub fn images(device: &Arc<Device>, [width, height]: [u32; 2]) -> Result<[Image; 2], GpuError> {
     let image = |name| {
         let resource = Resource::from(&Arc::new(StorageImage::new(device, name, width, height)?));

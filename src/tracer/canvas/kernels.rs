@@ -7,7 +7,7 @@ use crate::gpu::Builds;
 use crate::gpu::Shader;
 
 impl Canvas {
-    /// A kernel from the next chunk on; where it is another one, which is told, the picture is to be
+    /// A kernel from the next chunk on; returns whether it is another one; then the picture is to be
     /// [asked for](Canvas::show) again.
     pub fn use_kernel(&mut self, kernel: Kernel) -> Result<bool, TracerError> {
         if kernel == self.renderer.kernel() {
@@ -37,7 +37,7 @@ impl Canvas {
         Ok(())
     }
 
-    /// What kernels are made from, in the place of the program's own.
+    /// What kernels are made from, in place of the program's own.
     pub fn builds(&self) -> &Builds {
         &self.builds
     }

@@ -8,7 +8,7 @@ use crate::tracer::chunks::Pace;
 
 /// A part of a picture that was submitted.
 pub(super) struct Chunk {
-    /// Of which picture, by [`Canvas::begun`](super::Canvas).
+    /// Number of the picture, by [`Canvas::begun`](super::Canvas).
     pub picture: u64,
     /// Which of each pixel, from 0.
     pub sample: u32,
@@ -21,7 +21,7 @@ pub(super) struct Chunk {
 /// The time of a picture that came to its end.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Finished {
-    /// Of all its chunks.
+    /// Sum over all its chunks.
     pub gpu_time_ns: u64,
     /// Which of each pixel, from 0: the first is a picture by itself, the others are added to it while it rests.
     pub sample: u32,
@@ -35,7 +35,7 @@ struct Place {
 
 /// The chunks in flight, and the times of the pictures that they make up.
 pub(super) struct Timing {
-    /// What each place of the ring has in flight, if anything.
+    /// What each slot of the ring has in flight, if anything.
     places: [Place; InFlight::COUNT],
     /// How many blocks a chunk is to have.
     pub pace: Pace,
@@ -73,12 +73,12 @@ impl Timing {
         self.places.iter().any(|place| place.chunk.is_some())
     }
 
-    /// Of the pictures that came to their end since the last call.
+    /// Pictures that came to their end since the last call.
     pub fn take_finished(&mut self) -> Vec<Finished> {
         std::mem::take(&mut self.finished)
     }
 
-    /// Reads the times of what was submitted from this place of the ring and has ended.
+    /// Reads the times of what was submitted from this slot of the ring and has ended.
     pub fn collect(&mut self, place: usize) -> Result<(), GpuError> {
         let Place { timer, chunk } = &mut self.places[place];
         let Some(chunk) = chunk.take() else { return Ok(()) };

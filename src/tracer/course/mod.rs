@@ -31,7 +31,7 @@ pub const BINDINGS: [BindingKind; 5] =
 /// A scene as the kernel takes it.
 #[derive(Debug, PartialEq)]
 pub(super) struct CourseScene {
-    /// Of the whole picture.
+    /// Record of the whole picture.
     frame: CoursePushConstants,
     primitives: PrimitiveRecords,
     workgroup: [u32; 2],
@@ -221,7 +221,7 @@ impl OnDevice {
     }
 }
 
-/// The records of `new` that are not in their places in `old`, with their offsets in bytes.
+/// The records of `new` that are not at their positions in `old`, with their offsets in bytes.
 fn differing_records<'a>(old: &'a [u8], new: &'a [u8], record_bytes: usize) -> impl Iterator<Item = (u64, &'a [u8])> {
     let records = new.chunks_exact(record_bytes).enumerate().map(move |(index, record)| (index * record_bytes, record));
     let differing = records.filter(move |&(offset, record)| old.get(offset..offset + record_bytes) != Some(record));

@@ -1,6 +1,6 @@
-//! `repr(C)` mirrors of `glsl/course/interface.glsl`, filled from a scene. Vulkan's layout rules put a `vec3` on 16 bytes and
-//! let the next scalar follow it at 12; the `_pad` fields are the gaps. tests/kernels/record_layout.rs proves both
-//! sides alike.
+//! `repr(C)` mirrors of `glsl/course/interface.glsl`, filled from a scene. Vulkan's layout rules put a `vec3` on 16
+//! bytes and let the next scalar follow it at 12; the `_pad` fields are the gaps. tests/kernels/record_layout.rs proves
+//! both sides alike.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, Mat3, Vec3};
@@ -11,9 +11,13 @@ use crate::scene::{Camera, Light, Material, Projection, Scene, Solid, world_from
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct MaterialRecord {
+    /// Linear RGB.
     pub color: [f32; 3],
+    /// Gap of the layout, 0.
     pub _pad0: u32,
+    /// Ambient, diffuse and specular.
     pub coefficients: [f32; 3],
+    /// Gap of the layout, 0.
     pub _pad1: u32,
 }
 
@@ -21,8 +25,11 @@ pub struct MaterialRecord {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct SphereRecord {
+    /// World frame.
     pub center: [f32; 3],
+    /// World lengths.
     pub radius: f32,
+    /// Material of the whole surface.
     pub material: MaterialRecord,
 }
 
@@ -30,12 +37,17 @@ pub struct SphereRecord {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct BoxRecord {
+    /// Centre, world frame.
     pub position: [f32; 3],
+    /// Gap of the layout, 0.
     pub _pad0: u32,
+    /// Halves of the edges, world lengths.
     pub half_size: [f32; 3],
+    /// Gap of the layout, 0.
     pub _pad1: u32,
     /// Columns, each padded to 16 bytes.
     pub box_from_world: [[f32; 4]; 3],
+    /// Material of the whole surface.
     pub material: MaterialRecord,
 }
 
@@ -43,10 +55,15 @@ pub struct BoxRecord {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct CylinderRecord {
+    /// Centre of a base, world frame.
     pub end_a: [f32; 3],
+    /// Gap of the layout, 0.
     pub _pad0: u32,
+    /// Centre of the other base, world frame.
     pub end_b: [f32; 3],
+    /// World lengths.
     pub radius: f32,
+    /// Material of the whole surface.
     pub material: MaterialRecord,
 }
 
@@ -54,10 +71,15 @@ pub struct CylinderRecord {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct ConeRecord {
+    /// World frame.
     pub apex: [f32; 3],
+    /// Cosine of the angle between axis and side.
     pub half_angle_cosine: f32,
+    /// Unit vector from the apex to the base, world frame.
     pub axis: [f32; 3],
+    /// From the apex to the base, world lengths.
     pub height: f32,
+    /// Material of the whole surface.
     pub material: MaterialRecord,
 }
 
@@ -65,9 +87,13 @@ pub struct ConeRecord {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct LightRecord {
+    /// World frame.
     pub position: [f32; 3],
+    /// Gap of the layout, 0.
     pub _pad0: u32,
+    /// Linear RGB.
     pub intensity: [f32; 3],
+    /// Gap of the layout, 0.
     pub _pad1: u32,
 }
 
@@ -75,18 +101,29 @@ pub struct LightRecord {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
 pub struct CoursePushConstants {
+    /// World frame.
     pub camera_position: [f32; 3],
+    /// Pixels, x | y << 16.
     pub tile_origin: u32,
+    /// Unit vector to the left of the picture, world frame.
     pub camera_s: [f32; 3],
+    /// Pixels, width | height << 16.
     pub image_size: u32,
+    /// Unit vector up, world frame.
     pub camera_u: [f32; 3],
+    /// Generations to trace.
     pub depth: i32,
+    /// Unit vector against the viewing direction, world frame.
     pub camera_f: [f32; 3],
+    /// −1: the course's window [−3,1]²; 0: the centred window [−1,1]².
     pub window_low: f32,
+    /// The only light of the course kernel.
     pub light: LightRecord,
+    /// Linear RGB.
     pub background: [f32; 3],
     /// Spheres, boxes, cylinders, cones.
     pub counts: [i32; 4],
+    /// Tangent of half the vertical field of view.
     pub half_fov_tangent: f32,
 }
 
@@ -104,13 +141,18 @@ const _: () = {
 /// The records of all primitives, by kind, each kind in file order.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct PrimitiveRecords {
+    /// In the order of the scene's file.
     pub spheres: Vec<SphereRecord>,
+    /// In the order of the scene's file.
     pub boxes: Vec<BoxRecord>,
+    /// In the order of the scene's file.
     pub cylinders: Vec<CylinderRecord>,
+    /// In the order of the scene's file.
     pub cones: Vec<ConeRecord>,
 }
 
 impl PrimitiveRecords {
+    /// Records of a scene's primitives, rounded to `f32`.
     pub fn of(scene: &Scene) -> Self {
         let mut records = Self::default();
         for primitive in &scene.primitives {
@@ -198,7 +240,8 @@ impl CoursePushConstants {
         }
     }
 
-    pub fn at_tile(mut self, x: u32, y: u32) -> Self {
+    /// The record of the tile whose first pixel is this.
+    pub(super) fn at_tile(mut self, x: u32, y: u32) -> Self {
         self.tile_origin = packed(x, y);
         self
     }

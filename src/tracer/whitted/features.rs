@@ -7,7 +7,7 @@ use crate::gpu::{Device, DeviceKind, FloatWidth, GpuError, arithmetic};
 use crate::plan::{Approximations, CPU_MAX_ITERATIONS, Features, LightFeatures, Precision, most_pending};
 
 impl Features {
-    /// Of an exact picture, or of what `approximations` leave of it, as a scene's records have it.
+    /// Features of an exact picture, or of what `approximations` leave of it, as a scene's records have it.
     pub fn of(records: &WhittedRecords, approximations: &Approximations, max_depth: u32) -> Self {
         let lights = |matter: bool, count: u32| if matter { count.min(2) } else { 0 };
         let lights_that_shine = lights(approximations.lights, records.light_count);
@@ -33,7 +33,7 @@ impl Features {
     /// The specialization constants of `glsl/common/real.glsl`, `scene.glsl`, `camera.glsl` and `whitted.comp`.
     ///
     /// # Errors
-    /// The device fails when its arithmetic is tried.
+    /// The device fails when its arithmetic is tested.
     pub fn constants(
         &self,
         device: &Arc<Device>,

@@ -23,19 +23,20 @@ pub fn level_count(solids: usize) -> usize {
 /// One level over the solids.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Level {
+    /// Bounds of each group of the level below, in order.
     pub boxes: Vec<Bounds>,
-    /// Of each group of boxes, the axis along which they lie one behind the other.
+    /// Axis along which the boxes of a group lie one behind the other, for each group.
     pub orders: Vec<usize>,
 }
 
-/// The order of the solids, as places in `bounds`: neighbours in space are neighbours in it.
+/// The order of the solids, as indices into `bounds`: neighbours in space are neighbours in it.
 pub fn order(bounds: &[Bounds]) -> Vec<u32> {
     let mut places: Vec<(u32, DVec3)> = (0..).zip(bounds.iter().map(Bounds::middle)).collect();
     sort(&mut places);
     places.into_iter().map(|(place, _)| place).collect()
 }
 
-/// Cuts in two at a multiple of the largest power of eight that fits, across the longest side of the middles, and each
+/// Cuts in two at a multiple of the largest power of eight that fits, across the longest side of the centres, and each
 /// half again: no box of any level reaches over the cut.
 fn sort(places: &mut [(u32, DVec3)]) {
     if places.len() <= 2 {

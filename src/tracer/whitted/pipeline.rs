@@ -50,7 +50,7 @@ fn has_packets(device: &Device, workgroup: [u32; 2]) -> bool {
     device.description().packets && workgroup[0].is_multiple_of(8)
 }
 
-/// Of a driver that runs workgroups on CPUs.
+/// Number of threads of a driver that runs workgroups on CPUs; else 1.
 fn threads(device: &Device) -> u32 {
     match device.description().kind {
         DeviceKind::Cpu => available_parallelism().map_or(1, |threads| threads.get() as u32),

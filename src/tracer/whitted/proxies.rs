@@ -1,5 +1,5 @@
-//! What the search tries before the kernel solves anything: the proxies of `glsl/search/proxies.glsl` and the boxes of
-//! `hierarchy.glsl`, rounded to the safe side. Scene space.
+//! What the search tests before the kernel solves anything: the proxies of `glsl/search/proxies.glsl` and the boxes of
+//! `hierarchy.glsl`, rounded conservatively. Scene space.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -65,7 +65,7 @@ pub fn nothing(kind: SolidKind) -> Vec<Row> {
 
 const NO_BOX: [Row; 2] = [[0.0; 4], [IMPOSSIBLE, IMPOSSIBLE, IMPOSSIBLE, 0.0]];
 
-/// Middle and half size, rounded outwards by so many place errors.
+/// Centre and half size, rounded outwards by so many place errors.
 fn box_rows(bounds: Bounds, frame: SceneSpace, place_errors: f32, fourth: f32) -> [Row; 2] {
     let [x, y, z] = bounds.low.midpoint(bounds.high).as_vec3().to_array();
     let [half_x, half_y, half_z] = ((bounds.high - bounds.low) * 0.5).as_vec3().to_array();

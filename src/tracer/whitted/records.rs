@@ -1,7 +1,7 @@
 //! The records of `glsl/records/scene.glsl`, filled from a scene.
 //!
 //! Every record is rows of four reals, so they are computed in `f64` here and, for the `f32` kernel, narrowed number by
-//! number. What an `f32` cannot hold and the kernel needs (an axis, the middle between two ends) is told as a number
+//! number. What an `f32` cannot hold and the kernel needs (an axis, the midpoint of two ends) is given as a number
 //! and its error.
 
 use std::sync::Arc;
@@ -25,11 +25,11 @@ use crate::settings::sampling::sample_place;
 pub struct WhittedRecords {
     /// `View`, then the lights.
     pub view_and_lights: Vec<[f64; 4]>,
-    /// Of lights that give any light: the first ones.
+    /// Number of lights that give any light: the first ones.
     pub light_count: u32,
-    /// Of all lights.
+    /// Number of all lights.
     pub light_sphere_count: u32,
-    /// What the scene asks for; which rows there are goes by that.
+    /// What the scene asks for; which rows there are depends on that.
     pub light: LightFeatures,
     /// Shared by pictures whose primitives and frame are the same.
     pub solids: Arc<SolidRecords>,
@@ -81,9 +81,10 @@ impl WhittedRecords {
     }
 }
 
-/// All that the kernel is told of the primitives.
+/// All that the kernel knows of the primitives.
 #[derive(Debug, Default, PartialEq)]
 pub struct SolidRecords {
+    /// Kernel frame that all records are in.
     pub frame: SceneSpace,
     /// The proxies of each kind's solids and the boxes over them, for the search in `f32`.
     pub proxies: Vec<[f32; 4]>,
@@ -91,21 +92,22 @@ pub struct SolidRecords {
     pub rows: [Vec<[f64; 4]>; 4],
     /// By slot.
     pub materials: Vec<[f64; 4]>,
-    /// Of each.
+    /// Rows of each material.
     pub material_rows: usize,
     /// The slot of each primitive of the scene, or [`NO_SLOT`].
     pub slots: Vec<u32>,
+    /// Numbers of spheres, boxes, cylinders and cones.
     pub counts: [u32; 4],
     /// Where each kind's proxies begin, rows.
     pub first_proxies: [u32; 4],
-    /// Of boxes over the solids.
+    /// Levels of boxes over the solids.
     pub levels: [u32; 4],
     /// No box is rotated.
     pub are_boxes_axis_aligned: bool,
     orders: [Order; 4],
 }
 
-/// Of a primitive that is too small for the kernel.
+/// Slot of a primitive that is too small for the kernel.
 pub const NO_SLOT: u32 = u32::MAX;
 
 /// How the solids of a kind lie.
@@ -117,12 +119,12 @@ struct Order {
 }
 
 /// An order is kept while its boxes have no more than this many times the surface that they had when it was chosen:
-/// what a ray looks into goes by that.
+/// what a ray looks into scales with it.
 const MOST_SURFACE: f64 = 1.5;
 
 impl SolidRecords {
     /// In the order of `last`, of the same frame, for kinds where that still fits: then solids that did not change have
-    /// the records that they had, in their places.
+    /// the records that they had, at their positions.
     pub(super) fn of(
         primitives: &[Primitive],
         light: LightFeatures,
@@ -278,7 +280,7 @@ fn solid_rows(solid: &Solid, frame: SceneSpace, precision: Precision) -> Vec<[f6
     }
 }
 
-/// `Material`, of which the last row is there only where some scene's material needs it.
+/// `Material`; its last row is there only where some scene's material needs it.
 fn material_rows_of(material: &Material, primitive: u32, solid: &Solid) -> [[f64; 4]; 3] {
     let is_plate = matches!(solid, Solid::Box { half_size, .. } if half_size.min_element() == 0.0);
     let refractive_index = if is_plate { 0.0 } else { material.refractive_index };
@@ -289,7 +291,7 @@ fn material_rows_of(material: &Material, primitive: u32, solid: &Solid) -> [[f64
     ]
 }
 
-/// `Light`, of which the last row is there only where some light fades with distance.
+/// `Light`; its last row is there only where some light fades with distance.
 fn light_rows(light: &Light, frame: SceneSpace) -> [[f64; 4]; 3] {
     let (position, radius) = frame.light(light);
     [row(position, radius), row(light.intensity, 0.0), row(light.fading(frame.scale), 0.0)]
@@ -333,6 +335,7 @@ pub struct WhittedPushConstants {
     pub image_size: u32,
     /// Generations to trace.
     pub depth: u32,
+    /// Lights that give any light; those that give none follow them.
     pub light_count: u32,
     /// Half of the largest coordinate of a solid or of a ray's origin, kernel lengths.
     pub reach: f32,
@@ -344,13 +347,13 @@ pub struct WhittedPushConstants {
     pub min_shadowed: f32,
     /// In the pixel, sub-pixels from its top left.
     pub sample_place: [u32; 2],
-    /// Of each pixel, that the picture is the mean of.
+    /// Samples of each pixel that the picture is the mean of.
     pub samples_before: u32,
-    /// Of this one in the mean.
+    /// Weight of this sample in the mean.
     pub sample_weight: f32,
     /// Pixels, width | height << 16.
     pub tile_size: u32,
-    /// Of all lights.
+    /// Number of all lights.
     pub light_sphere_count: u32,
 }
 

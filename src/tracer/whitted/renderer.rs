@@ -202,7 +202,7 @@ impl Algorithm for WhittedRenderer {
     }
 }
 
-/// Of one array: offsets and what is to be written there, bytes.
+/// Changes of one array: offsets and what is to be written there, bytes.
 type Parts = Vec<(u64, Vec<u8>)>;
 
 /// More than that differing is uploaded anew. Vulkan's limit for one part.

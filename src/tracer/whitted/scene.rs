@@ -22,7 +22,7 @@ impl Precision {
         }
     }
 
-    /// Of four numbers.
+    /// Bytes of a row of four numbers.
     pub(super) fn row_bytes(self) -> u64 {
         match self {
             Self::F32 => 16,
@@ -117,7 +117,7 @@ fn upload(device: &Arc<Device>, records: &WhittedRecords, precision: Precision) 
 /// The largest record: seven rows of four doubles.
 const EMPTY_ARRAY_BYTES: u64 = 7 * 32;
 
-/// What a kernel is told of a picture, besides the scene's arrays.
+/// What a kernel knows of a picture, besides the scene's arrays.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) struct ViewUniforms {
     pub frame: WhittedPushConstants,
@@ -155,10 +155,10 @@ pub(super) struct WhittedScene {
     pub kernel: Kernel,
     pub records: WhittedRecords,
     pub features: Features,
-    /// Of the whole picture in one tile.
+    /// Uniforms of the whole picture in one tile.
     pub view_uniforms: ViewUniforms,
     pub workgroup: [u32; 2],
-    /// Of each pixel.
+    /// Samples of each pixel.
     pub samples: u32,
     /// Linear RGB.
     pub background: [f32; 3],
@@ -204,7 +204,7 @@ impl WhittedScene {
         let levels = if settings.without_boxes { [0; 4] } else { exact.levels };
         let features = Features { levels, samples: samples > 1, pixels: pixels.clamp(1, MOST_PIXELS), ..exact };
         let background = scene.background.as_vec3().to_array();
-        // No coordinate is larger than twice the reach: no two places are farther apart than 4 * sqrt(3) of that.
+        // No coordinate is larger than twice the reach: no two points are farther apart than 4 * sqrt(3) of that.
         let farthest = 7.0 * f64::from(records.solids.frame.reach) / records.solids.frame.scale;
         let light_spheres = Area::of_light_spheres(scene, f64::from(width) / f64::from(height), farthest);
         let view_uniforms =
@@ -216,7 +216,7 @@ impl WhittedScene {
         upload(device, &self.records, self.kernel.precision())
     }
 
-    /// Of all arrays.
+    /// Bytes of all arrays.
     pub fn bytes(&self) -> u64 {
         let rows: usize = self.records.buffers().iter().map(|(_, rows)| rows.len()).sum();
         rows as u64 * self.kernel.precision().row_bytes() + self.records.solids.proxies.len() as u64 * Texel::BYTES

@@ -14,9 +14,9 @@ use crate::viewer::text::Words;
 
 /// Generations of a ray.
 const DEPTH: Scale = Scale::new(1.0..=DEPTH_LIMIT as f64, 1.0);
-/// Of a pixel.
+/// Samples of a pixel.
 const SAMPLES: Scale = Scale::new(1.0..=MAX_SAMPLES as f64, 1.0);
-/// Of the traced picture against the one shown.
+/// Size of the traced picture against the one shown.
 const SCALE: Scale = Scale::new(MIN_SCALE..=1.0, 20.0);
 
 pub fn show(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>) {

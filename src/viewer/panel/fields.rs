@@ -10,7 +10,7 @@ pub struct Scale {
     typed: RangeInclusive<f64>,
     /// Part of `typed`.
     dragged: RangeInclusive<f64>,
-    /// Of dragging and of the arrow keys, as its reciprocal, since 3 / 20 is 0.15 and 3 · 0.05 is not.
+    /// Steps of dragging and of the arrow keys, as the reciprocal, since 3 / 20 is 0.15 and 3 · 0.05 is not.
     steps_per_unit: f64,
 }
 
@@ -28,13 +28,13 @@ impl Scale {
     pub const LENGTH: Self = Self { typed: 1e-6..=1000.0, dragged: 0.05..=1000.0, steps_per_unit: 20.0 };
     /// World units; a plate is a box without thickness.
     pub const HALF_SIZE: Self = Self::new(0.0..=1000.0, 20.0);
-    /// Of a unit vector.
+    /// Coordinates of a unit vector.
     pub const AXIS: Self = Self::new(-1.0..=1.0, 20.0);
     /// Degrees of a cone's half angle, in (0, 90).
     pub const HALF_ANGLE: Self = Self { typed: 0.001..=89.999, dragged: 0.5..=89.5, steps_per_unit: 2.0 };
-    /// Of a highlight's exponent.
+    /// Exponent of a highlight.
     pub const SHININESS: Self = Self::new(1.0..=1024.0, 1.0);
-    /// Of a refractive index: common ones are dragged.
+    /// Refractive index: common ones are dragged.
     pub const REFRACTIVE_INDEX: Self = Self { typed: 0.01..=100.0, dragged: 1.0..=3.0, steps_per_unit: 20.0 };
     /// Degrees of a field of view, in (0, 180).
     pub const FIELD_OF_VIEW: Self = Self { typed: 0.001..=179.999, dragged: 1.0..=179.0, steps_per_unit: 2.0 };
@@ -79,7 +79,7 @@ pub fn number(ui: &mut Ui, group: &str, label: &str, value: f64, scale: &Scale) 
         // A scene may hold what a hand may not choose, and looking at it must not change it.
         .clamp_existing_to_range(false)
         .range(scale.typed.clone())
-        // The arrow keys go by the same number.
+        // The arrow keys step by the same number.
         .speed(if is_typing { step } else { step / DRAG_PER_STEP })
         .update_while_editing(false)
         .custom_formatter(|value, _| decimal(value))

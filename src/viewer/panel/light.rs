@@ -1,4 +1,4 @@
-//! «Параметры света»: every light's place and colour.
+//! «Параметры света»: every light's position and colour.
 
 use egui::Ui;
 

@@ -1,6 +1,6 @@
 //! The window's widgets, drawn with egui: a pure function of what the window knows, answering what the user asks.
 //!
-//! Around the free middle, where the picture is, stand a menu bar, a status bar and the groups of the course's panel
+//! Around the free centre, where the picture is, stand a menu bar, a status bar and the groups of the course's panel
 //! with those that are new; over them come faults, help and dialogs. All speak [`Action`].
 
 mod camera;
@@ -35,15 +35,15 @@ use crate::plan::Precision;
 pub struct Readings<'a> {
     /// Its name; empty without one.
     pub device: &'a str,
-    /// Of the picture shown, pixels.
+    /// Size of the picture shown, pixels.
     pub picture_size: [u32; 2],
-    /// Of pictures that the device traced; empty before the first.
+    /// Times of pictures that the device traced; empty before the first.
     pub frame_times: &'a FrameTimes,
     /// Share of the picture that is traced, while it is not whole.
     pub progress: Option<f32>,
     /// Why the kernel does not draw this scene, in one line; the last good picture stays.
     pub refusal: Option<&'a str>,
-    /// Of the accurate kernel, where that draws.
+    /// Precision of the accurate kernel, where that draws.
     pub precision: Option<Precision>,
     /// Why the picture is not right.
     pub warning: Option<&'a str>,
@@ -73,7 +73,7 @@ pub struct Shown {
     pub is_settled: bool,
 }
 
-/// Of the panel on the right, logical pixels.
+/// Width of the panel on the right, logical pixels.
 const PANEL_WIDTH: f32 = 320.0;
 const PANEL_WIDTHS: RangeInclusive<f32> = 260.0..=640.0;
 

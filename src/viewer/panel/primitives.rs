@@ -88,7 +88,7 @@ fn neighbours(document: &Document) -> (usize, usize) {
     (previous, next)
 }
 
-/// All names, of which as many are made as are in sight.
+/// All names; as many are made as are in sight.
 fn list(ui: &mut Ui, words: &Words, document: &Document, actions: &mut Vec<Action>) {
     const LIST_HEIGHT: f32 = 300.0;
     let groups = &words.groups;

@@ -44,14 +44,14 @@ pub(super) struct Session {
     egui: egui_winit::State,
     /// `None` only while a lost device is being replaced.
     screen: Option<Screen>,
-    /// Of every device that was.
+    /// Messages of every device that was.
     messages: Messages,
     picture: egui::Rect,
     frame_times: FrameTimes,
     /// When the widgets are to be drawn again.
     widgets_due: Option<Instant>,
     refusal: Option<String>,
-    /// Of the accurate kernel; `None` where another draws.
+    /// Choice for the accurate kernel; `None` where another draws.
     chosen: Option<Chosen>,
     /// Whether that is for the scene as it is, where it counts.
     is_precision_known: bool,
@@ -275,7 +275,7 @@ impl Session {
         document.selection().or_else(seen).map_or(DVec3::ZERO, at)
     }
 
-    /// Which primitive is seen at a place of the window, pixels.
+    /// Which primitive is seen at a position of the window, pixels.
     fn pick(&self, at: DVec2) -> Option<usize> {
         let (corner, [width, height]) = self.picture_pixels();
         let (x, y) = (at.x - f64::from(corner[0]), at.y - f64::from(corner[1]));

@@ -34,7 +34,7 @@ impl Session {
                 // The window cannot serve two: the old one is gone before the new one is made.
                 let builds = self.screen.take().map(|screen| screen.canvas.builds().clone()).unwrap_or_default();
                 self.screen = Some(open_screen(&self.window, &self.state, &self.options, &builds, &self.messages)?);
-                // The new device has none of the textures that the old context has told of.
+                // The new device has none of the textures that the old context has reported.
                 (self.context, self.egui) = new_egui(&self.window, self.options.is_observed);
                 self.reference = Reference::default();
                 self.wake();
@@ -79,7 +79,7 @@ impl Session {
         let stage_before = self.stage();
         let Some(screen) = &mut self.screen else { return Ok(()) };
         screen.trace()?;
-        // While picture follows picture, the next one tells of the last one's time.
+        // While picture follows picture, the next one shows the last one's time.
         let has_news = self.take_times() && !self.state.is_continuous;
         if has_news || self.stage() != stage_before {
             self.wake();
@@ -105,7 +105,7 @@ impl Session {
         self.observe(observation)?;
         let is_next_due = self.state.is_continuous && self.state.kernel.description().is_on_device() && self.is_whole();
         if self.stage() != stage_before || is_next_due {
-            // The widgets have told of what was, or a screenshot has held up the next picture.
+            // The widgets have shown what was, or a screenshot has held up the next picture.
             self.wake();
         }
         Ok(())
@@ -238,7 +238,7 @@ impl Session {
         Ok(())
     }
 
-    /// What the window's frame tells.
+    /// What the window's frame shows.
     fn show_title(&mut self) {
         let document = &self.state.document;
         let name = document.path().and_then(|path| path.file_name()).map(|name| name.display().to_string());

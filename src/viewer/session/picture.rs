@@ -15,7 +15,8 @@ use crate::settings::RenderSettings;
 use crate::tracer::{Canvas, Settings, TracerError, limits_of};
 
 impl Session {
-    /// Kernels compiled meanwhile take the last ones' places; of a broken one is told, and its last good build goes on.
+    /// Kernels compiled meanwhile take the last ones' places; a broken one is reported, and its last good build goes
+    /// on.
     #[cfg(debug_assertions)]
     pub(super) fn take_kernels(&mut self) {
         let Some(builds) = self.shader_watch.as_ref().and_then(|watch| watch.take()) else { return };

@@ -47,8 +47,8 @@ impl Chosen {
 }
 
 impl Session {
-    /// Asks the plan, unless its answer is for the scene as it is. Pixels may be tried for it, too slow while the scene
-    /// changes from frame to frame: `is_at_rest` says that it does not; until then the last answer holds.
+    /// Asks the plan, unless its answer is for the scene as it is. Pixels may be tested for it, too slow while the
+    /// scene changes from frame to frame: `is_at_rest` says that it does not; until then the last answer holds.
     ///
     /// # Errors
     /// There is no plan for the scene on this device.

@@ -66,7 +66,7 @@ impl Axis {
         let mut ticks: Vec<f64> =
             values.filter(|value| (self.low - slack..=self.high + slack).contains(&value.log10())).collect();
         if self.scale == Scale::LogarithmicFromZero {
-            // Nothing between 0 and the first decade has a place.
+            // Nothing between 0 and the first decade has a position.
             ticks.retain(|value| value.log10() >= self.low + 1.0 - slack);
             ticks.insert(0, 0.0);
         }

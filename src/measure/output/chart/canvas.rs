@@ -8,8 +8,8 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 /// The generic name is what an SVG's viewer finds a font by; pixels are drawn with the one registered.
 pub const FONT: &str = "sans-serif";
 
-/// Colours of Okabe and Ito's palette (Color Universal Design, 2008), which the colour-blind tell apart; dashes and shapes
-/// tell lines and markers apart in grey.
+/// Colours of Okabe and Ito's palette (Color Universal Design, 2008), which the colour-blind tell apart; dashes and
+/// shapes tell lines and markers apart in grey.
 pub mod palette {
     use plotters::style::RGBColor;
 
@@ -31,7 +31,7 @@ pub struct Stroke {
     pub dash: Option<[i32; 2]>,
 }
 
-/// Corners around the middle, in parts of a marker's reach; none: a circle.
+/// Corners around the centre, in parts of a marker's reach; none: a circle.
 pub type Shape = &'static [(f64, f64)];
 
 pub const CIRCLE: Shape = &[];
@@ -49,7 +49,7 @@ pub struct Marker {
     pub is_hollow: bool,
 }
 
-/// Of a marker, pixels of the chart.
+/// Reach of a marker, pixels of the chart.
 const REACH: i32 = 6;
 
 pub type Drawn<DB> = Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
@@ -85,12 +85,12 @@ impl<'a, DB: DrawingBackend> Canvas<'a, DB> {
         }
     }
 
-    /// `side`: of the text, that is at the place; the middle of its height is.
+    /// `side`: the side of the text that is at `place`; in height its centre is.
     pub fn text(&self, text: &str, place: [i32; 2], size: i32, side: HPos) -> Drawn<DB> {
         self.area.draw(&Text::new(text.to_owned(), self.at(place), self.style(size, side)))
     }
 
-    /// From below to above, about its middle.
+    /// From below to above, about its centre.
     pub fn turned_text(&self, text: &str, place: [i32; 2], size: i32) -> Drawn<DB> {
         let style = self.style(size, HPos::Center).transform(FontTransform::Rotate270);
         self.area.draw(&Text::new(text.to_owned(), self.at(place), style))

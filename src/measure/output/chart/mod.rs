@@ -20,7 +20,7 @@ pub struct Chart {
     pub title: &'static str,
     /// What measured.
     pub subtitle: String,
-    /// Of each panel between its axes, pixels.
+    /// Size of each panel between its axes, pixels.
     pub plot: [i32; 2],
     pub rows: Vec<Vec<Panel>>,
     pub legend: Vec<Sample>,
@@ -51,7 +51,7 @@ pub struct Line {
 pub struct Mark {
     /// Values of x and y.
     pub at: [f64; 2],
-    /// Of y.
+    /// Quartiles of y.
     pub quartiles: Option<[f64; 2]>,
     pub marker: Marker,
     pub is_ringed: bool,
@@ -78,7 +78,7 @@ const BELOW: i32 = 60;
 /// Above and below all panels.
 const HEAD: i32 = 68;
 const LEGEND: i32 = 68;
-/// Of the list beside a panel.
+/// Width of the list beside a panel.
 const LIST: i32 = 460;
 const LIST_STEP: i32 = 21;
 
@@ -225,8 +225,8 @@ impl Panel {
         canvas.turned_text(self.y.label, [26, middle_y], 17)
     }
 
-    /// Below and to the left of their marks, but to the right of the axis, left of which its own numbers are, and none over
-    /// another.
+    /// Below and to the left of their marks, but to the right of the axis, left of which its own numbers are, and none
+    /// over another.
     fn label_places(&self, plot: [i32; 2]) -> Vec<(&str, [i32; 2])> {
         const OFF: i32 = 13;
         let mut places: Vec<(&str, [i32; 2])> = Vec::new();
