@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-// The accurate kernel (docs/light-model.md, "The accurate model"; docs/numerics.md): one source for float and double.
+// The accurate kernel (docs/light-model.md, docs/numerics.md): one source for float and double.
 layout(local_size_x_id = 5, local_size_y_id = 6) in;
 
 #include "records/records.glsl"

@@ -9,8 +9,11 @@ struct Pending {
     Real weight;
     Real medium;
     uint slot;   // whose surface it leaves
-    uint packed; // face | inside << 4 | generation << 5
+    uint packed; // face, whether it leaves to the inside, generation
 };
+
+const uint INSIDE_BIT = 4u;
+const uint GENERATION_BIT = 5u;
 
 Pending pending[MOST_PENDING];
 
@@ -22,9 +25,9 @@ struct Branch {
 };
 
 void put_off(Branch branch, inout Path path) {
-    uint face_and_side = path.nearest.face | uint(branch.inside) << 4u;
-    pending[path.pending] = Pending(path.nearest.point, branch.direction, branch.weight, branch.medium,
-                                    path.nearest.slot, face_and_side | path.generation << 5u);
+    uint packed = path.nearest.face | uint(branch.inside) << INSIDE_BIT | path.generation << GENERATION_BIT;
+    pending[path.pending] =
+        Pending(path.nearest.point, branch.direction, branch.weight, branch.medium, path.nearest.slot, packed);
     path.pending++;
 }
 
@@ -42,13 +45,15 @@ void resume(inout Path path) {
     path.ray = Ray(next.origin, Real3(0.0), next.direction);
     path.weight = next.weight;
     path.medium = next.medium;
-    path.origin_surface = OriginSurface(next.slot, next.packed & 15u, (next.packed >> 4u & 1u) != 0u);
-    path.generation = next.packed >> 5u;
+    uint face = bitfieldExtract(next.packed, 0, int(INSIDE_BIT));
+    bool is_inside = bitfieldExtract(next.packed, int(INSIDE_BIT), 1) != 0u;
+    path.origin_surface = OriginSurface(next.slot, face, is_inside);
+    path.generation = next.packed >> GENERATION_BIT;
     path.purpose = TO_NEAREST;
 }
 
 // From the camera, once it is known what that is in.
-void enter(inout Path path) {
+void start_in_medium(inout Path path) {
     path.medium = path.medium_outside;
     path.purpose = TO_NEAREST;
 }
@@ -66,7 +71,8 @@ void branch(inout Path path) {
         through.medium = hit.inside ? path.medium_outside : material.refractive_index;
         through.inside = !hit.inside;
         if (!refracted(path.incident, hit.normal, here, through.medium, through.direction)) {
-            mirror.weight += through.weight;
+            // Of coefficients above 1 together, a weight may grow beyond all numbers.
+            mirror.weight = min(mirror.weight + through.weight, LARGEST);
             through.weight = 0.0;
         }
     }
@@ -78,5 +84,6 @@ void branch(inout Path path) {
     }
     if (goes_through_first) follow(through, path);
     else if (has_mirror) follow(mirror, path);
-    else path.purpose = path.pending > 0u ? RESUMED : ENDED;
+    else if (path.pending > 0u) resume(path);
+    else path.purpose = ENDED;
 }

@@ -4,8 +4,8 @@
 const uint ENDED = 0u;     // nothing more
 const uint TO_NEAREST = 1u;
 const uint TO_LIGHT = 2u;
-const uint ONWARD = 3u;    // to the nearest, and not yet made of the hit that it leaves
-const uint RESUMED = 4u;   // to the nearest, and not yet made of what is pending
+const uint ONWARD = 3u;    // to the nearest; the ray is still to be made of the last hit
+const uint RESUMED = 4u;   // to the nearest; the ray is still to be taken from those pending
 const uint TO_MEDIUM = 5u; // to find out what a point lies in
 
 // How far the search for what a ray meets has come.
@@ -36,11 +36,11 @@ struct Path {
     Real3 incident;       // the direction of the ray that met it
     Real3 local_radiance;
     uint light_index;     // of the first light that has not been tested
-    // Refractive index of the innermost other solid about the ray's origin: of the one that the ray straight on leaves
-    // first, where, and which that is.
+    // The innermost other solid about the ray's origin, which is the one that the ray straight on leaves first: its
+    // refractive index, where the ray leaves it, and its index in the scene.
     Real medium_outside;
-    Real medium_t;
-    uint medium_primitive;
+    Hit medium_exit;
+    uint medium_primitive; // or NOTHING
 
     // What a shadow ray goes to.
     Light light;
@@ -58,7 +58,6 @@ Path path_at_rest(View view) {
     path.purpose = ENDED;
     path.medium = 1.0;
     path.medium_outside = 1.0;
-    path.medium_t = LARGEST;
     path.medium_primitive = NOTHING;
     path.ray = Ray(view.position, view.position_error, view.ahead);
     path.origin_surface = OriginSurface(NOTHING, CURVED, false);

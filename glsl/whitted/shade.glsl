@@ -83,7 +83,10 @@ Real3 direct_radiance(Material material, Real3 normal, Real3 ray_direction, Real
         }
     }
     Real3 received = (material.diffuse * cosine) * material.color + material.specular * highlight;
-    Real3 radiance = received * light.intensity;
-    if (HAS_ATTENUATION) radiance = limited(radiance * (light.scale / (light.slope * light_distance + light.constant)));
+    Real3 intensity = light.intensity;
+    if (HAS_ATTENUATION) intensity *= light.scale / (light.slope * light_distance + light.constant);
+    Real3 radiance = received * intensity;
+    // What is to be weakened on its way must be a number.
+    if (HAS_ATTENUATION || MEDIA != NO_MEDIA) radiance = limited(radiance);
     return radiance;
 }

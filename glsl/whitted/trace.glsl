@@ -2,12 +2,12 @@
 #include "path.glsl"
 #include "branches.glsl"
 
-// What the ray's origin lies in, not counting the solid whose surface it leaves: only such solids come before all
-// others.
+// A search for what the ray's origin lies in, besides the solid whose surface it leaves: its limit, 0, only lets pass
+// what the origin lies in.
 void ask_for_medium(inout Path path) {
     path.purpose = TO_MEDIUM;
     path.medium_outside = 1.0;
-    path.medium_t = LARGEST;
+    path.medium_primitive = NOTHING;
     path.search = SearchState(0.0, 0u, -1, false);
 }
 
@@ -17,7 +17,7 @@ void set_out(bool is_primary, uint pixel_index, View view, inout Path path) {
     if (MEDIA != NO_MEDIA && !is_primary) {
         if (path.purpose == RESUMED) resume(path);
         else if (path.is_hit) branch(path);
-        else enter(path);
+        else start_in_medium(path);
     } else {
         Real3 direction;
         if (is_primary) {
@@ -36,9 +36,8 @@ void set_out(bool is_primary, uint pixel_index, View view, inout Path path) {
         Real3 origin = is_primary ? view.position : path.nearest.point;
         path.ray = Ray(origin, is_primary ? view.position_error : Real3(0.0), direction);
     }
-    bool is_from_camera = is_primary || (MEDIA == NESTED && path.generation == 0u);
-    if (LIGHT_SPHERES > 0u)
-        path.may_see_light_sphere = is_from_camera && may_meet_a_light_sphere(path.ray, path.light);
+    bool is_from_camera = MEDIA == NESTED && path.generation == 0u;
+    if (LIGHT_SPHERES > 0u) path.may_see_light_sphere = is_from_camera && path.may_see_light_sphere;
     path.is_hit = false;
     path.search = search_up_to(FAR, path.origin_surface);
     if (MEDIA != NO_MEDIA && is_primary) {
@@ -79,7 +78,9 @@ void end_generation(inout Path path) {
         bool goes_further = path.is_hit && path.weight > Real(frame.min_throughput) && path.generation < frame.depth;
         path.purpose = HAS_REFLECTIONS && goes_further ? ONWARD : ENDED;
     } else {
-        bool has_rays = path.material.reflection > 0.0 || path.material.transmission > 0.0;
+        // The most that a ray on from here may weigh: where all is reflected, both together.
+        Real weight = path.weight * (path.material.reflection + path.material.transmission);
+        bool has_rays = weight > Real(frame.min_throughput);
         bool goes_further = HAS_REFLECTIONS && path.is_hit && has_rays && path.generation < frame.depth;
         path.purpose = goes_further ? ONWARD : (path.pending > 0u ? RESUMED : ENDED);
         if (MEDIA == NESTED && goes_further && path.material.transmission > 0.0 && path.nearest.inside) {
@@ -145,9 +146,10 @@ bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path pat
         path.direct *= leaves ? material.transmission * material.transmission : material.transmission;
         hides_light = false;
     }
-    bool is_tie = hit.t == path.medium_t && material.primitive < path.medium_primitive;
-    if (is_asking && is_met && hit.inside && (hit.t < path.medium_t || is_tie)) {
-        path.medium_t = hit.t;
+    if (is_asking && is_met && hit.inside &&
+        (path.medium_primitive == NOTHING ||
+         is_nearer(hit, material.primitive, path.medium_exit, path.medium_primitive, path.ray))) {
+        path.medium_exit = hit;
         path.medium_primitive = material.primitive;
         path.medium_outside = material.refractive_index;
     }
@@ -243,6 +245,9 @@ void trace(View view) {
                 set_out(starts, begun, view, path);
                 begun += starts ? 1u : 0u;
             }
+            if (LIGHT_SPHERES > 0u)
+                path.may_see_light_sphere = may_meet_a_light_sphere(path.ray, path.light, starts) ||
+                                            (!starts && path.may_see_light_sphere);
             candidate = next_candidate(path);
             is_unshaded = is_left_to_shade(candidate, view.background, path);
 

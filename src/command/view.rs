@@ -65,7 +65,8 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         validation: args.validation.validation(),
         is_observed: args.observe,
         watched_sources: args.watch.clone(),
-        kernel: (args.scene == COURSE_START).then_some(Kernel::Own(OwnKernel::COURSE)),
+        kernel: (args.scene == COURSE_START && args.shading == Shading::Whitted)
+            .then_some(Kernel::Own(OwnKernel::COURSE)),
         setting,
         shading: args.shading,
         lose_device_after: args.lose_device_after,

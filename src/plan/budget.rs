@@ -361,7 +361,9 @@ impl Shadows {
         let of_one_path = 2.0 * error / (f64::from(self.generations) * self.direct.len() as f64);
         let mut low = if self.branches { 0.0 } else { of_one_path };
         let mut high = (2.0 * error).min(largest);
-        for _ in 0..HALVINGS {
+        // Rays of many branches make the bound that many times steeper.
+        let halvings = if self.branches { HALVINGS + self.generations } else { HALVINGS };
+        for _ in 0..halvings {
             let middle = 0.5 * (low + high);
             if self.bound(middle) <= error { low = middle } else { high = middle }
         }

@@ -38,7 +38,7 @@ pub(super) fn ceilings(background: DVec3, surfaces: &[Surface], depth: u32) -> V
                 highest += 1;
             }
             let reflected = lines.get(highest).map_or(0.0, |line| line.at(ceiling));
-            ceiling = f64::max(background[channel], reflected * ROUNDED_UP);
+            ceiling = f64::max(background[channel], reflected * ROUNDED_UP).min(f64::MAX);
             bound[channel] = ceiling;
         }
     }

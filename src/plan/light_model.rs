@@ -63,12 +63,13 @@ impl LightModel {
         let fading = scene.lights.iter().filter(|light| light.distance_constant.is_some()).count();
         let solids = scene.primitives.iter().filter(|primitive| primitive.material.transmission > 0.0).count();
         let of = |choice, yes, no| Decision { choice, reason: if choice { yes } else { no } };
-        let media = media.seen_by(generations);
         let media_reason = match media {
             Media::None => Reason::NothingTransmits,
+            Media::Nested if generations == 1 => Reason::NothingIsRefracted,
             Media::Apart => Reason::MediaLieApart { solids },
             Media::Nested => Reason::MediaMayTouch { solids },
         };
+        let media = media.seen_by(generations);
         Self {
             shininess: of(shininess, Reason::OwnExponents, Reason::ExponentIsFive),
             attenuation: of(attenuation, Reason::LightsFade { lights: fading }, Reason::NoLightFades),
@@ -94,15 +95,26 @@ pub struct LightFeatures {
 impl LightFeatures {
     /// Those that a scene asks for.
     pub fn of(scene: &Scene) -> Self {
+        Self::of_primitives(&scene.primitives).in_scene(scene)
+    }
+
+    /// Those that primitives ask for by themselves: they stay as long as these do. Takes time by the number of
+    /// primitives, times that of the transparent ones.
+    pub(crate) fn of_primitives(primitives: &[Primitive]) -> Self {
         let has_own_shininess = |primitive: &Primitive| {
             let Primitive { material, .. } = primitive;
             material.specular > 0.0 && material.shininess_256() != COURSE_SHININESS_256
         };
+        Self { shininess: primitives.par_iter().any(has_own_shininess), media: media(primitives), ..Self::default() }
+    }
+
+    /// Of these primitives' features, all of a scene with them.
+    pub(crate) fn in_scene(self, scene: &Scene) -> Self {
         Self {
-            shininess: scene.primitives.par_iter().any(has_own_shininess),
             attenuation: scene.lights.iter().any(|light| light.distance_constant.is_some()),
             ambient_light: scene.ambient_light != DVec3::ONE,
-            media: media(scene),
+            media: if self.media == Media::Apart && may_be_in_a_solid(scene) { Media::Nested } else { self.media },
+            ..self
         }
     }
 
@@ -129,18 +141,17 @@ impl Media {
 /// Pairs of solids that are looked at, at most: more take longer than what that saves.
 const MOST_PAIRS: usize = 1 << 22;
 
-fn media(scene: &Scene) -> Media {
-    let lets_through = |index: &usize| scene.primitives[*index].material.transmission > 0.0;
-    let transparent: Vec<usize> = (0..scene.primitives.len()).filter(lets_through).collect();
+fn media(primitives: &[Primitive]) -> Media {
+    let lets_through = |index: &usize| primitives[*index].material.transmission > 0.0;
+    let transparent: Vec<usize> = (0..primitives.len()).filter(lets_through).collect();
     if transparent.is_empty() {
         return Media::None;
     }
-    if transparent.len().saturating_mul(scene.primitives.len()) > MOST_PAIRS || may_be_in_a_solid(scene) {
+    if transparent.len().saturating_mul(primitives.len()) > MOST_PAIRS {
         return Media::Nested;
     }
     let world = SceneSpace::world(1.0);
-    let bounds: Vec<Bounds> =
-        scene.primitives.par_iter().map(|primitive| Bounds::of(&primitive.solid, world)).collect();
+    let bounds: Vec<Bounds> = primitives.par_iter().map(|primitive| Bounds::of(&primitive.solid, world)).collect();
     let is_alone = |&index: &usize| {
         !bounds.iter().enumerate().any(|(other, around)| other != index && around.touches(&bounds[index]))
     };

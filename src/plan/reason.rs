@@ -91,6 +91,8 @@ pub enum Reason {
         /// Number of solids that let light through.
         solids: usize,
     },
+    /// Refraction: paths of one generation end where something would be refracted; only light passes.
+    NothingIsRefracted,
     /// Refraction: what is outside of a solid may be another one.
     MediaMayTouch {
         /// Number of solids that let light through.
@@ -233,6 +235,9 @@ impl fmt::Display for Reason {
             Self::NothingTransmits => write!(f, "no material lets light through"),
             Self::MediaLieApart { solids } => {
                 write!(f, "{solids} solid(s) let light through, and touch neither another nor the camera")
+            }
+            Self::NothingIsRefracted => {
+                write!(f, "paths of one generation refract nothing: only what comes from lights passes")
             }
             Self::MediaMayTouch { solids } => {
                 write!(f, "{solids} solid(s) let light through, and may touch another or hold the camera")

@@ -26,14 +26,18 @@ const AROUND: u64 = 4;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct TraversalCost {
     /// Iterations of one search and the solve after it, in half of the boxes, times how many of these at most; `None`
-    /// among more primitives than are looked at.
+    /// among more primitives than are looked at,
+    /// and where rays branch.
     iterations: Option<u64>,
 }
 
 impl TraversalCost {
     /// Takes time by the square of their number, up to 512 of them.
     pub fn of(primitives: &[Primitive]) -> Self {
-        if primitives.len() > MOST_SOLIDS {
+        // What a ray that is both reflected and refracted costs is up to how often it is: between one path and 2^depth.
+        let branches =
+            |Primitive { material, .. }: &Primitive| material.transmission > 0.0 && material.reflection != Some(0.0);
+        if primitives.len() > MOST_SOLIDS || primitives.iter().any(branches) {
             return Self { iterations: None };
         }
         let count = |kind: SolidKind| primitives.iter().filter(|primitive| primitive.solid.kind() == kind).count();
@@ -49,7 +53,7 @@ impl TraversalCost {
 
     /// How many pixels each of a packet's invocations traces: eight, or the largest power of two so that the driver's
     /// loops have time for all of them. An estimate: what it is wrong about, a tracer traces once more, pixel by pixel,
-    /// and a window shows black. `unknown`: of so many where the primitives have not been looked at.
+    /// and a window shows black. `unknown`: that many where the cost is not known.
     pub fn pixels_per_invocation(self, lights: usize, generations: u32, unknown: u32) -> u32 {
         let Some(iterations) = self.iterations else { return unknown };
         let rays = u64::from(generations) * (1 + lights as u64);
@@ -106,6 +110,7 @@ mod tests {
         }
         assert_eq!(pixels_per_invocation(&scene("grid-sphere-100"), 1000), 1, "many generations");
         assert_eq!(pixels_per_invocation(&scene("cloud-10000"), 20), 3, "too many solids to tell");
+        assert_eq!(pixels_per_invocation(&scene("glass"), 20), 3, "rays that branch");
         let lights = vec![Light::default(); 50];
         assert_eq!(pixels_per_invocation(&Scene { lights, ..scene("grid-sphere-100") }, 20), 1, "many lights");
     }

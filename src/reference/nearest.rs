@@ -53,7 +53,11 @@ impl Solids {
             let hit = solid.first_hit(ray, origin)?;
             (hit.side == Side::Inside).then_some((index, hit.t))
         });
-        exits.min_by(|(_, a), (_, b)| a.total_cmp(b)).map(|(index, _)| index)
+        // One face of two solids is calculated from other numbers for each, and then rounded.
+        const ROUNDED: f64 = 1.0 + 8.0 * f64::EPSILON;
+        let is_before = |t: f64, first: Option<(u32, f64)>| first.is_none_or(|(_, other)| t * ROUNDED < other);
+        let first = exits.fold(None, |first, (index, t)| if is_before(t, first) { Some((index, t)) } else { first });
+        first.map(|(index, _)| index)
     }
 
     /// The solids between a point and a light, each with how many of its surfaces are; `origin_surface` is the point's.

@@ -42,7 +42,7 @@ pub enum TracerError {
     /// A driver that runs on the CPU ended loops early: pixels would be wrong.
     #[error(
         "device '{device}' gave up on {pixels} pixels, as Mesa's CPU drivers do where a pixel takes more than 65535 \
-         iterations of loops; fewer primitives or generations are needed there"
+         iterations of loops; fewer primitives or generations, or a larger --error, are needed there"
     )]
     LoopLimitReached {
         /// Name of the device.

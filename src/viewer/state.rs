@@ -2,6 +2,7 @@
 
 mod dialog;
 
+use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::mem;
 use std::path::{Path, PathBuf};
@@ -89,6 +90,11 @@ impl State {
     /// How much of the light model is drawn of it.
     pub fn shading(&self) -> Shading {
         if self.kernel.is_chosen_in_panel() { self.shading } else { self.kernel.settings().shading }
+    }
+
+    /// The scene as it is drawn: by [`Self::shading`].
+    pub fn shaded_scene(&self) -> Cow<'_, Scene> {
+        self.shading().applied(self.document.scene())
     }
 
     /// How finely the accurate kernels trace once nothing changes.

@@ -6,8 +6,9 @@ use crate::scenes::{picture, primitive};
 use crate::tracers::Tracers;
 use glam::DVec3;
 use zerkalo::measure::{Difference, tolerances};
+use zerkalo::plan::Approximations;
 use zerkalo::scene::{Camera, Light, Material, Primitive, Scene, Solid};
-use zerkalo::tracer::{Kernel, Precision, Settings};
+use zerkalo::tracer::{Kernel, Precision, Settings, Tracer, TracerError};
 
 const SIZE: [u32; 2] = [88, 50];
 
@@ -105,4 +106,78 @@ fn glass_of_any_kind_looks_as_the_reference_sees_it() {
 #[ignore = "takes some minutes"]
 fn three_hundred_scenes_of_glass_look_as_the_reference_sees_them() {
     scenes_are_the_references(100..400);
+}
+
+/// A lattice of spheres that mirror and let through a little: rays of 2^depth branches.
+fn lattice(lights: Vec<Light>) -> Scene {
+    let material = Material {
+        reflection: Some(0.1),
+        transmission: 0.1,
+        refractive_index: 1.5,
+        ..Material::of_course(DVec3::ONE, 0.0, 1.0, 0.0)
+    };
+    let mut primitives = Vec::new();
+    for x in -2..3 {
+        for y in -1..2 {
+            for z in 0..2 {
+                let center = 1.1 * DVec3::new(f64::from(x), f64::from(y), f64::from(z));
+                primitives.push(primitive(Solid::Sphere { center, radius: 0.5 }, material.clone()));
+            }
+        }
+    }
+    Scene {
+        camera: Camera { position: DVec3::Z * -6.0, vertical_fov_degrees: 40.0, ..Camera::default() },
+        background: DVec3::splat(100.0),
+        max_depth: 8,
+        lights,
+        primitives,
+        ..Scene::default()
+    }
+}
+
+/// Nothing adds to a picture that its budget takes from.
+#[test]
+fn rays_that_weigh_too_little_are_gone() {
+    let device = TestDevice::open();
+    let mut tracers = Tracers::new(&device);
+    let scene = lattice(Vec::new());
+    for precision in [Precision::F64, Precision::F32] {
+        let exact = Settings { kernel: Kernel::Whitted(precision), ..Settings::new(SIZE[0], SIZE[1]) };
+        let all = tracers.draw_f64(&scene, &exact);
+        // Among them those that are, but for rounding, the weight of a ray.
+        for min_throughput in [0.0005, 0.001, 0.005, 0.01, 0.05, 0.1] {
+            let approximations = Approximations { min_throughput, ..Approximations::NONE };
+            let heavy = tracers.draw_f64(&scene, &Settings { approximations, ..exact.clone() });
+            let brightest = all.iter().zip(&heavy).map(|(all, heavy)| (heavy - all).max_element());
+            let brightest = brightest.fold(f64::NEG_INFINITY, f64::max);
+            assert!(brightest <= 0.0, "{}, {min_throughput}: {brightest}", precision.name());
+        }
+    }
+}
+
+/// A CPU driver that ends loops too early is found out, whatever loops there are.
+#[test]
+fn a_picture_of_many_branches_is_whole_or_refused() {
+    let device = TestDevice::open();
+    let light = |position, radius| Light { position, intensity: DVec3::ONE, radius, distance_constant: None };
+    for radius in [0.0, 0.1] {
+        let lights = vec![light(DVec3::Z * -6.0, radius), light(DVec3::splat(5.0), radius)];
+        let scene = Scene { background: DVec3::ZERO, ..lattice(lights) };
+        let mut truth = None;
+        for depth in [10, 14, 15, 16] {
+            let settings =
+                Settings { kernel: Kernel::Whitted(Precision::F32), max_depth: Some(depth), ..Settings::new(60, 40) };
+            let picture = match Tracer::new(&device, &scene, &settings).unwrap().render_f64() {
+                Ok(picture) => picture,
+                Err(TracerError::LoopLimitReached { .. }) => continue,
+                Err(error) => panic!("{error}"),
+            };
+            // What comes of ten generations weighs at most 2^10 * 0.1^10.
+            let truth = truth.get_or_insert_with(|| picture.clone());
+            for (a, b) in truth.iter().zip(&picture) {
+                assert!((a - b).abs().max_element() < 1e-4, "lights of radius {radius}, depth {depth}: {a} and {b}");
+            }
+        }
+        assert!(truth.is_some());
+    }
 }

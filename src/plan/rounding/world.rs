@@ -128,8 +128,8 @@ impl<'a> F32World<'a> {
             {
                 let alignment = unit(mirrored(-direction, hit.normal)).dot(-ray_direction).max(0.0);
                 let highlight = alignment.powf(material.shininess_256() as f32 / 256.0);
-                let received = (diffuse * cosine * color + specular * highlight) * light.intensity;
-                sum = limited(sum + limited(received * light.fading(distance)));
+                let received = diffuse * cosine * color + specular * highlight;
+                sum = limited(sum + limited(received * (light.intensity * light.fading(distance))));
             }
         }
         sum

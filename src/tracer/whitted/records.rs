@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use super::hierarchy::{self, GROUP, Level};
 use super::proxies::{level_rows, nothing, proxy};
 use super::rows::{row, unit};
-use crate::plan::{LightFeatures, Precision, VIEW_ROWS, is_rotated, may_be_in_a_solid, solid_row_count};
+use crate::plan::{LightFeatures, Media, Precision, VIEW_ROWS, is_rotated, may_be_in_a_solid, solid_row_count};
 use crate::scene::{
     BoundingSphere, Bounds, BoxNearby, Camera, CylinderNearby, Light, Material, Primitive, Projection, Scene,
     SceneSpace, Solid, SolidKind, SphereNearby, two_sum, world_from_box,
@@ -46,24 +46,26 @@ impl PartialEq for WhittedRecords {
 impl WhittedRecords {
     /// For a picture of `width`×`height` pixels; `precision` is that of the kernel.
     pub fn of(scene: &Scene, frame: SceneSpace, precision: Precision, size: [u32; 2]) -> Self {
-        let solids = SolidRecords::of(&scene.primitives, LightFeatures::of(scene), frame, precision, None);
-        Self::with(scene, Arc::new(solids), precision, size)
+        let light = LightFeatures::of(scene);
+        let solids = SolidRecords::of(&scene.primitives, light, frame, precision, None);
+        Self::with(scene, light, Arc::new(solids), precision, size)
     }
 
     /// With records of the scene's primitives that are there already.
     pub(super) fn with(
         scene: &Scene,
+        light: LightFeatures,
         solids: Arc<SolidRecords>,
         precision: Precision,
         [width, height]: [u32; 2],
     ) -> Self {
-        let mut view_and_lights = view(scene, solids.frame, precision, width, height).to_vec();
+        let may_be_in_medium = light.media == Media::Nested && may_be_in_a_solid(scene);
+        let mut view_and_lights = view(scene, may_be_in_medium, solids.frame, precision, [width, height]).to_vec();
         let (shining, dark): (Vec<_>, Vec<_>) = scene.lights.iter().partition(|light| light.intensity != DVec3::ZERO);
-        let features = LightFeatures::of(scene);
-        let rows = |light: &&Light| light_rows(light, solids.frame).into_iter().take(features.light_rows());
+        let rows = |each: &&Light| light_rows(each, solids.frame).into_iter().take(light.light_rows());
         view_and_lights.extend(shining.iter().chain(&dark).flat_map(rows));
         let light_sphere_count = scene.lights.len() as u32;
-        Self { view_and_lights, light_count: shining.len() as u32, light_sphere_count, light: features, solids }
+        Self { view_and_lights, light_count: shining.len() as u32, light_sphere_count, light, solids }
     }
 
     /// The buffers of the kernel's own numbers, in the order of their bindings, with their names; the proxies come
@@ -298,7 +300,13 @@ fn light_rows(light: &Light, frame: SceneSpace) -> [[f64; 4]; 3] {
 }
 
 /// `View`
-fn view(scene: &Scene, frame: SceneSpace, precision: Precision, width: u32, height: u32) -> [[f64; 4]; VIEW_ROWS] {
+fn view(
+    scene: &Scene,
+    may_be_in_medium: bool,
+    frame: SceneSpace,
+    precision: Precision,
+    [width, height]: [u32; 2],
+) -> [[f64; 4]; VIEW_ROWS] {
     let Camera { position, direction, up, vertical_fov_degrees, projection } = scene.camera;
     let (position, position_error) = precision.split(frame.exact_point(position));
     let unit = |vector| unit((vector, DVec3::ZERO)).0;
@@ -315,7 +323,7 @@ fn view(scene: &Scene, frame: SceneSpace, precision: Precision, width: u32, heig
         row(ahead.cross(left), half_height),
         row(ahead, window_low),
         row(scene.background, 0.0),
-        row(position, f64::from(u8::from(may_be_in_a_solid(scene)))),
+        row(position, f64::from(u8::from(may_be_in_medium))),
         row(position_error, 0.0),
         row(scene.ambient_light, 0.0),
     ]

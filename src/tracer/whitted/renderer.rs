@@ -38,11 +38,17 @@ struct Primitives {
     list: Vec<Primitive>,
     extent: Extent,
     cost: TraversalCost,
+    light: LightFeatures,
 }
 
 impl Primitives {
     fn of(primitives: &[Primitive]) -> Self {
-        Self { list: primitives.to_vec(), extent: Extent::of(primitives), cost: TraversalCost::of(primitives) }
+        Self {
+            list: primitives.to_vec(),
+            extent: Extent::of(primitives),
+            cost: TraversalCost::of(primitives),
+            light: LightFeatures::of_primitives(primitives),
+        }
     }
 }
 
@@ -139,15 +145,13 @@ impl Algorithm for WhittedRenderer {
         let primitives =
             same.map_or_else(|| Arc::new(Primitives::of(&scene.primitives)), |last| last.primitives.clone());
         let frame = scene_space_within(scene, &primitives.extent, self.kernel);
+        let light = primitives.light.in_scene(scene);
         let last = self.on_device.as_ref().map(|last| &last.records.solids).filter(|solids| solids.frame == frame);
         let solids = match last {
             Some(solids) if same.is_some() => solids.clone(),
-            _ => {
-                let light = LightFeatures::of(scene);
-                Arc::new(SolidRecords::of(&scene.primitives, light, frame, precision, last.map(Arc::as_ref)))
-            }
+            _ => Arc::new(SolidRecords::of(&scene.primitives, light, frame, precision, last.map(Arc::as_ref))),
         };
-        let records = WhittedRecords::with(scene, solids, precision, [settings.width, settings.height]);
+        let records = WhittedRecords::with(scene, light, solids, precision, [settings.width, settings.height]);
         let pixels = self.pixels(scene, settings, &primitives.cost);
         Ok(WhittedState { scene: WhittedScene::new(&self.device, scene, records, settings, pixels)?, primitives })
     }

@@ -89,7 +89,7 @@ struct Reference {
 /// A screenshot that waits for the picture to be whole.
 struct Screenshot {
     path: PathBuf,
-    /// As it was asked for.
+    /// As it was drawn when it was asked for.
     scene: Scene,
 }
 
@@ -300,7 +300,7 @@ impl Session {
             match effect {
                 Effect::Quit => self.is_quitting = true,
                 Effect::SaveScreenshot(path) => {
-                    self.screenshots.push(Screenshot { path, scene: self.state.document.scene().clone() });
+                    self.screenshots.push(Screenshot { path, scene: self.state.shaded_scene().into_owned() });
                 }
             }
         }

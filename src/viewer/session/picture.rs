@@ -67,7 +67,7 @@ impl Session {
     }
 
     fn ask_kernel(&mut self, limits: &Limits, size: [u32; 2]) -> Result<(), TracerError> {
-        let scene = &*self.state.shading().applied(self.state.document.scene());
+        let scene = &*self.state.shaded_scene();
         let chosen = self.chosen.as_ref().map(|chosen| chosen.precision);
         if !self.state.kernel.description().is_on_device() {
             return self.ask_for_reference();
@@ -104,7 +104,7 @@ impl Session {
 
     fn ask_for_reference(&mut self) -> Result<(), TracerError> {
         let Some(screen) = &mut self.screen else { return Ok(()) };
-        let scene = &*self.state.shading().applied(self.state.document.scene());
+        let scene = &*self.state.shaded_scene();
         let size = screen.canvas.size();
         let Reference { worker, shown, failure } = &mut self.reference;
         match worker.as_ref().filter(|worker| worker.size == size).and_then(ReferenceWorker::take) {
@@ -170,7 +170,7 @@ impl Session {
             self.wake();
             return Ok(());
         }
-        let scene = self.state.document.scene();
+        let scene = self.state.shaded_scene();
         let asked = self.screenshots.len();
         self.screenshots.retain(|screenshot| screenshot.scene == *scene);
         if self.screenshots.len() < asked {

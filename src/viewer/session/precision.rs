@@ -62,7 +62,7 @@ impl Session {
             (self.chosen, self.is_precision_known) = (None, true);
             return Ok(());
         };
-        let scene = &*self.state.shading().applied(self.state.document.scene());
+        let scene = &*self.state.shaded_scene();
         let is_current = |chosen: &Chosen| chosen.is_for(scene, size, asked);
         let is_of_another_choice = self.chosen.as_ref().is_none_or(|chosen| chosen.asked != asked);
         if is_of_another_choice || (is_at_rest && !self.chosen.as_ref().is_some_and(is_current)) {
