@@ -41,7 +41,7 @@ pub use lines::Line;
 pub use reason::Reason;
 pub use rounding::{Cause, Near, Rounding};
 pub use structure::Structure;
-pub use tiling::{tile_side, tried_under_boxes};
+pub use tiling::{rays_per_pixel, tile_side, tried_under_boxes};
 pub use traversal_cost::{CPU_MAX_ITERATIONS, MOST_PIXELS, TraversalCost};
 
 use glam::DVec3;

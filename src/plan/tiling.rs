@@ -8,7 +8,8 @@ const LARGEST_SIDE: u32 = 1024;
 
 pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decision<u32> {
     let largest = LARGEST_SIDE.min(limits.max_image_side);
-    let choice = tile_side(largest, tried_under_boxes(scene.primitives.len()), scene.lights.len(), generations);
+    let rays = rays_per_pixel(scene, generations);
+    let choice = tile_side(largest, tried_under_boxes(scene.primitives.len()), scene.lights.len(), rays);
     let reason = if choice < largest { Reason::HeavyTiles { largest } } else { Reason::LightTiles };
     Decision { choice, reason }
 }
@@ -20,14 +21,26 @@ pub fn tried_under_boxes(solids: usize) -> usize {
     solids.min(Structure::MOST_ALONE * Structure::GROUP)
 }
 
+/// Rays that a pixel takes from surface to surface: one a generation, or, where they may be both mirrored and refracted,
+/// as many as branches of all generations have; no more of these are counted than make a tile the smallest among a few
+/// solids.
+pub fn rays_per_pixel(scene: &Scene, generations: u32) -> u64 {
+    const MOST_BRANCHES: u32 = 12;
+    if scene.has_transmission() {
+        u64::from(generations).max((1 << generations.min(MOST_BRANCHES)) - 1)
+    } else {
+        generations.into()
+    }
+}
+
 /// Side of a tile, pixels: at most `max`, and so small that one submission makes no more than about 2²⁸ intersection
-/// tests, if that leaves it 64 pixels. Every ray is taken to go through all generations, with a shadow ray a light
-/// each, and to test so many solids.
+/// tests, if that leaves it 64 pixels. Each of a pixel's rays is taken to come with a shadow ray a light, and to test so
+/// many solids.
 /// 2²⁸ tests take lavapipe on two cores a second or two: so long may Ctrl-C and the progress bar wait; on a small GPU
 /// they stay far below the seconds after which a driver takes it for hung.
-pub fn tile_side(max: u32, tried: usize, lights: usize, max_depth: u32) -> u32 {
+pub fn tile_side(max: u32, tried: usize, lights: usize, rays_per_pixel: u64) -> u32 {
     const TESTS: u64 = 1 << 28;
-    let tests_per_pixel = u64::from(max_depth) * (1 + lights as u64) * (tried as u64 + 1);
+    let tests_per_pixel = rays_per_pixel * (1 + lights as u64) * (tried as u64 + 1);
     let side = (TESTS / tests_per_pixel).isqrt() as u32;
     // A multiple of what a workgroup traces, side by side and one after another, leaves no invocations idle at the
     // tile's edge.
@@ -37,7 +50,8 @@ pub fn tile_side(max: u32, tried: usize, lights: usize, max_depth: u32) -> u32 {
 
 #[cfg(test)]
 mod tests {
-    use super::{tile_side, tried_under_boxes};
+    use super::{rays_per_pixel, tile_side, tried_under_boxes};
+    use crate::scene::gallery;
 
     #[test]
     fn heavy_scenes_take_small_tiles_and_light_ones_the_largest() {
@@ -47,6 +61,13 @@ mod tests {
         assert_eq!(tile_side(1024, 100, 1, 1000), 64);
         assert_eq!(tile_side(7, 100, 1, 1000), 7);
         assert_eq!(tile_side(1024, 128, 1, 20), 192, "whole workgroups of eight pixels per invocation");
+    }
+
+    #[test]
+    fn rays_branch_where_something_lets_light_through() {
+        let rays = |name: &str, generations| rays_per_pixel(&gallery::scene(name).unwrap(), generations);
+        assert_eq!([1, 20].map(|generations| rays("showcase", generations)), [1, 20]);
+        assert_eq!([1, 3, 20, 10_000].map(|generations| rays("glass", generations)), [1, 7, 4095, 10_000]);
     }
 
     #[test]

@@ -30,7 +30,7 @@ impl<'a> World<'a> {
             scene,
             origin,
             solids: Solids::about(origin, &scene.primitives),
-            has_transmission: scene.primitives.iter().any(|primitive| primitive.material.transmission > 0.0),
+            has_transmission: scene.has_transmission(),
             light_positions: scene.lights.iter().map(|light| light.position - origin).collect(),
             light_spheres: scene.lights.iter().map(ball).collect(),
         }
@@ -85,7 +85,7 @@ impl<'a> World<'a> {
         let mut through = Leg { weight: 0.0, generation: leg.generation + 1, ..*leg };
         through.ray.origin = hit.point;
         through.origin_surface = hit.left_by(hit.side.other());
-        if is_plate(solid) {
+        if solid.is_plate() {
             // Both of its sides are outside.
             through.origin_surface = hit.left_by(Side::Outside);
         } else if material.transmission > 0.0 {
@@ -161,7 +161,7 @@ impl<'a> World<'a> {
         let mut share = 1.0;
         for (primitive, surfaces) in self.solids.between(light_position, hit.point, hit.origin_surface()) {
             let Primitive { material, solid, .. } = &self.scene.primitives[primitive as usize];
-            let surfaces = if is_plate(solid) { surfaces.min(1) } else { surfaces };
+            let surfaces = if solid.is_plate() { surfaces.min(1) } else { surfaces };
             share *= material.transmission.powi(surfaces as i32);
             path.add_crossing(primitive, surfaces);
         }
@@ -190,11 +190,6 @@ struct Leg {
     /// Refractive index of what it goes through.
     medium: f64,
     generation: u32,
-}
-
-/// A box without thickness, through which rays go as they are.
-fn is_plate(solid: &Solid) -> bool {
-    matches!(solid, Solid::Box { half_size, .. } if half_size.min_element() == 0.0)
 }
 
 /// Origin of positions, so that a rounded one is not off by more than solids are small: the world's origin,

@@ -50,6 +50,13 @@ pub struct Scene {
     pub primitives: Vec<Primitive>,
 }
 
+impl Scene {
+    /// Whether any material lets light through.
+    pub fn has_transmission(&self) -> bool {
+        self.primitives.iter().any(|primitive| primitive.material.transmission > 0.0)
+    }
+}
+
 impl Default for Scene {
     /// The course's start state: its camera, its one light, no primitives.
     fn default() -> Self {

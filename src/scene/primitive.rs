@@ -90,6 +90,11 @@ pub enum Solid {
 }
 
 impl Solid {
+    /// Whether it is a box without thickness: a single surface, through which light goes straight on.
+    pub fn is_plate(&self) -> bool {
+        matches!(self, Self::Box { half_size, .. } if half_size.min_element() == 0.0)
+    }
+
     /// Which of the four it is.
     pub fn kind(&self) -> SolidKind {
         match self {

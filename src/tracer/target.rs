@@ -8,7 +8,7 @@ use super::tiles::{Tile, tiles};
 use super::upscale::{Upscaler, Upscaling};
 use super::{Settings, TracerError};
 use crate::gpu::{Buffer, BufferKind, Device, PIXEL_BYTES, Resource};
-use crate::plan::{tile_side, tried_under_boxes};
+use crate::plan::{rays_per_pixel, tile_side, tried_under_boxes};
 use crate::scene::Scene;
 
 pub(super) struct Target {
@@ -81,7 +81,7 @@ fn traced_side(scene: &Scene, settings: &Settings, limit: u32) -> u32 {
     let solids = scene.primitives.len();
     let has_boxes = settings.kernel.description().has_hierarchy && !settings.without_boxes;
     let tried = if has_boxes { tried_under_boxes(solids) } else { solids };
-    tile_side(max_tile_side, tried, scene.lights.len(), settings.generations(scene))
+    tile_side(max_tile_side, tried, scene.lights.len(), rays_per_pixel(scene, settings.generations(scene)))
 }
 
 /// Side of the tile made from that, but for the neighbours that its edge needs.

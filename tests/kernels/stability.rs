@@ -32,6 +32,9 @@ fn wanted() -> Vec<String> {
         ("MS", 1),
         ("LP", 4),
         ("LR", 1),
+        ("RF", 17),
+        ("EX", 3),
+        ("AT", 4),
     ];
     let mut ids: Vec<String> = numbered
         .iter()

@@ -169,10 +169,9 @@ pub fn of_f32(lengths: &Lengths, depth: u32, size: [u32; 2], shift_pixels: f64) 
         return Rounding::Mild;
     }
     let ratio = lengths.ratio();
-    let lets_light_through = scene.primitives.iter().any(|primitive| primitive.material.transmission > 0.0);
     let are_lengths_mild = shift_pixels <= MILD_SHIFT_PIXELS && ratio <= MILD_RATIO;
     let are_mirrors_mild = ratio * gain_of_mirrors(scene, depth) <= MILD_RATIO_IN_MIRRORS;
-    if lets_light_through {
+    if scene.has_transmission() {
         // The paths that are tested know no refraction.
         let is_mild = are_lengths_mild && !has_grazing_light(lengths);
         return if is_mild { Rounding::Mild } else { Rounding::Unknown { ratio } };
@@ -296,8 +295,7 @@ mod tests {
     fn every_scene_of_the_gallery_is_right_in_f32() {
         for entry in gallery::entries() {
             let scene = gallery::scene(&entry.name).unwrap();
-            let lets_light_through = scene.primitives.iter().any(|primitive| primitive.material.transmission > 0.0);
-            if !scene.primitives.is_empty() && !lets_light_through {
+            if !scene.primitives.is_empty() && !scene.has_transmission() {
                 let lengths = Lengths::of(&scene);
                 let rounding = try_pixels(&lengths, scene.max_depth, [1621, 701], MOST_TRIED, Doubt::Lengths);
                 assert!(matches!(rounding, Rounding::Harmless { .. }), "{}: {rounding:?}", entry.name);

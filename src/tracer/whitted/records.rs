@@ -284,8 +284,7 @@ fn solid_rows(solid: &Solid, frame: SceneSpace, precision: Precision) -> Vec<[f6
 
 /// `Material`; its last row is there only where some scene's material needs it.
 fn material_rows_of(material: &Material, primitive: u32, solid: &Solid) -> [[f64; 4]; 3] {
-    let is_plate = matches!(solid, Solid::Box { half_size, .. } if half_size.min_element() == 0.0);
-    let refractive_index = if is_plate { 0.0 } else { material.refractive_index };
+    let refractive_index = if solid.is_plate() { 0.0 } else { material.refractive_index };
     [
         row(material.color, material.ambient),
         [material.diffuse, material.specular, f64::from(primitive), material.reflection()],
