@@ -18,20 +18,17 @@ Light light_with_sphere(uint index, Light current_light) {
     return current_light;
 }
 
-// The same of any light, of a packet whose rays all begin; of another, false.
-//
-// This is called for those that do not begin too, and takes a single iteration then: a CPU driver goes through a loop
-// within a branch that nobody takes once all the same, and nobody would count that.
-bool may_meet_a_light_sphere(Ray ray, Light current_light, bool begins) {
+// The same of any light.
+bool may_meet_a_light_sphere(Ray ray, Light current_light) {
     bool may_meet = false;
     uint i = 0u;
     for (;;) {
         iterations++;
         may_meet = may_meet || may_meet_light_sphere(ray, light_with_sphere(i, current_light));
         i++;
-        if (LIGHT_SPHERES == 1u || !(begins && i < frame.light_sphere_count)) break;
+        if (LIGHT_SPHERES == 1u || !(i < frame.light_sphere_count)) break;
     }
-    return begins && may_meet;
+    return may_meet;
 }
 
 // Where the ray meets the nearest light sphere, and its intensity; at LARGEST, nothing. Of a ray that does not look for

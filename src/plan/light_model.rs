@@ -58,8 +58,9 @@ impl LightModel {
         ]
     }
 
-    pub(super) fn decide(scene: &Scene, generations: u32) -> Self {
-        let LightFeatures { shininess, attenuation, ambient_light, media } = LightFeatures::of(scene);
+    /// `features`: the scene's.
+    pub(super) fn decide(scene: &Scene, features: LightFeatures, generations: u32) -> Self {
+        let LightFeatures { shininess, attenuation, ambient_light, media } = features;
         let fading = scene.lights.iter().filter(|light| light.distance_constant.is_some()).count();
         let solids = scene.primitives.iter().filter(|primitive| primitive.material.transmission > 0.0).count();
         let of = |choice, yes, no| Decision { choice, reason: if choice { yes } else { no } };

@@ -217,7 +217,7 @@ impl Plan {
         let generations = approximated_generations(generations, &spent);
         let light_spheres = light_spheres::decide(scene, size);
         let highlights = approximated_highlights(highlights, &spent);
-        let light_model = LightModel::decide(scene, generations.choice);
+        let light_model = LightModel::decide(scene, light_features, generations.choice);
         let approximations = if row.approximates {
             Approximations {
                 light_spheres: light_spheres.choice > 0,

@@ -30,7 +30,7 @@ impl Features {
         }
     }
 
-    /// The specialization constants of `glsl/common/real.glsl`, `scene.glsl`, `camera.glsl` and `whitted.comp`.
+    /// The specialization constants of `glsl/whitted.comp` and what it includes, in the order of their numbers.
     ///
     /// # Errors
     /// The device fails when its arithmetic is tested.

@@ -72,17 +72,13 @@ pub fn show_material(ui: &mut Ui, words: &Words, document: &Document, actions: &
     group(ui, "material", title, |ui| {
         let edited = for_selected(ui, document, |ui| {
             let color = vector(ui, title, RGB, material.color, &Scale::SHARE);
-            let shares = [
-                ("K_a", material.ambient),
-                ("K_d", material.diffuse),
-                ("K_s", material.specular),
-                ("K_t", material.transmission),
-            ];
+            let shares = [("K_a", material.ambient), ("K_d", material.diffuse), ("K_s", material.specular)];
             let edit = |ui: &mut Ui| {
                 shares.map(|(label, value)| number(ui, title, label, value, &Scale::SHARE).unwrap_or(value))
             };
-            let [ambient, diffuse, specular, transmission] = ui.horizontal_wrapped(edit).inner;
+            let [ambient, diffuse, specular] = ui.horizontal_wrapped(edit).inner;
             let row = |ui: &mut Ui, label, value, scale| number_row(ui, title, label, value, scale).unwrap_or(value);
+            let transmission = row(ui, "K_t", material.transmission, &Scale::SHARE);
             let shininess = row(ui, groups.shininess, material.shininess, &Scale::SHININESS);
             let refractive_index =
                 row(ui, groups.refractive_index, material.refractive_index, &Scale::REFRACTIVE_INDEX);
