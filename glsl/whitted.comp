@@ -9,8 +9,8 @@ layout(local_size_x_id = 5, local_size_y_id = 6) in;
 #include "search/search.glsl"
 #include "camera/camera.glsl"
 #include "camera/picture.glsl"
-#include "whitted/shade.glsl"
-#include "whitted/light_spheres.glsl"
+#define Weight Real
+#include "transport/transport.glsl"
 #include "whitted/trace.glsl"
 
 void main() { trace(view()); }

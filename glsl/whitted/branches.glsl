@@ -52,12 +52,6 @@ void resume(inout Path path) {
     path.purpose = TO_NEAREST;
 }
 
-// From the camera, once it is known what that is in.
-void start_in_medium(inout Path path) {
-    path.medium = path.medium_outside;
-    path.purpose = TO_NEAREST;
-}
-
 // On from the nearest hit. Where all is reflected, the mirrored ray gets the refracted one's weight, too.
 void branch(inout Path path) {
     Material material = path.material;

@@ -1,4 +1,4 @@
-//! Paths of the `f32` kernel (`glsl/whitted/trace.glsl`, `shade.glsl`, `camera.glsl`).
+//! Paths of the `f32` kernel (`glsl/whitted/trace.glsl`, `glsl/transport/`, `glsl/camera/camera.glsl`).
 
 use glam::{DVec3, Vec3};
 

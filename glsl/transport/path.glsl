@@ -18,7 +18,7 @@ struct SearchState {
 
 struct Path {
     Real3 color;     // linear RGB, of the generations that are over
-    Real weight;     // in it, of the present one
+    Weight weight;   // in it, of the present one
     uint generation;
     uint pending;    // rays that it goes on by later
 
@@ -52,7 +52,7 @@ struct Path {
 Path path_at_rest(View view) {
     Path path;
     path.color = Real3(0.0);
-    path.weight = 1.0;
+    path.weight = Weight(1.0);
     path.generation = 0u;
     path.pending = 0u;
     path.purpose = ENDED;
