@@ -3,7 +3,7 @@ use glam::{DVec2, DVec3};
 use super::ray::Ray;
 use crate::scene::{Camera, Projection};
 
-/// The rays through a picture's pixel centres (docs/course-work.md, "Primary rays").
+/// The rays through a picture's pixels (docs/course-work.md, "Primary rays").
 pub struct PrimaryRays {
     position: DVec3,
     /// Unit vectors in the world frame: to the left of the picture, up, and along the optical axis.
@@ -36,7 +36,13 @@ impl PrimaryRays {
 
     /// Through the centre of a pixel counted from the left and from the top; its direction has unit length.
     pub fn through(&self, column: u32, row: u32) -> Ray {
-        let from_top_left = (DVec2::new(column.into(), row.into()) + 0.5) / self.picture_size;
+        self.through_point(DVec2::new(column.into(), row.into()) + 0.5)
+    }
+
+    /// Through a point of the picture, right and down from its top left corner in pixels, at most `width` and `height`;
+    /// its direction has unit length.
+    pub fn through_point(&self, point: DVec2) -> Ray {
+        let from_top_left = point / self.picture_size;
         // x right, y up, in [0, 1]²: what the camera formula was written for.
         let centered = DVec2::new(from_top_left.x, 1.0 - from_top_left.y);
         let window = match self.projection {

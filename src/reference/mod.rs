@@ -3,6 +3,8 @@
 //!
 //! Ray–solid intersections are solved in double-double and rounded once, so that a hit is that of the stored ray and
 //! the stored solid; directions, normals and shading are `f64`. Nothing here is shared with the kernels.
+//!
+//! [`render`] draws Whitted's model; [`path_trace`] estimates the same with the light between surfaces.
 
 mod angle;
 mod camera;
@@ -10,11 +12,14 @@ mod double_double;
 mod intersect;
 mod nearest;
 mod path;
+mod path_tracer;
+mod random;
 mod ray;
 mod shade;
 
 pub use camera::PrimaryRays;
 pub use nearest::Solids;
+pub use path_tracer::{Estimate, path_trace};
 pub use ray::{Face, Hit, OriginSurface, Ray, Side};
 pub use shade::World;
 
@@ -83,6 +88,9 @@ pub enum RenderError {
         /// Pixels.
         height: u32,
     },
+    /// Pixels were to be estimated from 0 samples.
+    #[error("could not estimate pixels from no samples")]
+    NoSamples,
     /// `progress` answered with a break.
     #[error("rendering was cancelled")]
     Cancelled,
@@ -98,30 +106,43 @@ pub fn render(
     height: u32,
     progress: &(dyn Fn(u32) -> ControlFlow<()> + Sync),
 ) -> Result<Image64, RenderError> {
+    let world = World::new(scene);
+    let primary_rays = PrimaryRays::new(&scene.camera, width, height);
+    let blank = Pixel { color: DVec3::ZERO, first_hit: BACKGROUND, path: 0 };
+    let draw = |column, row| world.look_along(primary_rays.through(column, row));
+    Ok(Image64 { width, height, pixels: by_rows(width, height, blank, draw, progress)? })
+}
+
+/// What `draw` makes of each column and row, row by row; `progress` as in [`render`].
+fn by_rows<T: Clone + Send>(
+    width: u32,
+    height: u32,
+    blank: T,
+    draw: impl Fn(u32, u32) -> T + Sync,
+    progress: &(dyn Fn(u32) -> ControlFlow<()> + Sync),
+) -> Result<Vec<T>, RenderError> {
     if width == 0 || height == 0 {
         return Err(RenderError::Empty { width, height });
     }
-    let mut pixels = blank_pixels(width, height).ok_or(RenderError::OutOfMemory { width, height })?;
-    let world = World::new(scene);
-    let primary_rays = PrimaryRays::new(&scene.camera, width, height);
+    let mut pixels = filled(width, height, blank).ok_or(RenderError::OutOfMemory { width, height })?;
     let rows_done = AtomicU32::new(0);
     pixels.par_chunks_mut(width as usize).zip(0..height).try_for_each(|(pixels, row)| {
         for (pixel, column) in pixels.iter_mut().zip(0..width) {
-            *pixel = world.look_along(primary_rays.through(column, row));
+            *pixel = draw(column, row);
         }
         match progress(rows_done.fetch_add(1, Ordering::Relaxed) + 1) {
             ControlFlow::Continue(()) => Ok(()),
             ControlFlow::Break(()) => Err(RenderError::Cancelled),
         }
     })?;
-    Ok(Image64 { width, height, pixels })
+    Ok(pixels)
 }
 
 /// None if they do not fit in memory.
-fn blank_pixels(width: u32, height: u32) -> Option<Vec<Pixel>> {
+fn filled<T: Clone>(width: u32, height: u32, blank: T) -> Option<Vec<T>> {
     let count = (width as usize).checked_mul(height as usize)?;
     let mut pixels = Vec::new();
     pixels.try_reserve_exact(count).ok()?;
-    pixels.resize(count, Pixel { color: DVec3::ZERO, first_hit: BACKGROUND, path: 0 });
+    pixels.resize(count, blank);
     Some(pixels)
 }

@@ -11,10 +11,10 @@ use crate::scene::{BoundingSphere, Light, Material, Primitive, Scene, Solid};
 
 /// A scene ready to be looked at along any ray.
 pub struct World<'a> {
-    scene: &'a Scene,
+    pub(super) scene: &'a Scene,
     /// World frame; all below is as seen from there.
     origin: DVec3,
-    solids: Solids,
+    pub(super) solids: Solids,
     has_transmission: bool,
     light_positions: Vec<DVec3>,
     /// One for each light, in order; none where nothing of it is seen.
@@ -38,13 +38,13 @@ impl<'a> World<'a> {
 
     /// The nearest hit of a ray on the scene's primitives, both in the world frame.
     pub fn nearest(&self, ray: &Ray, origin_surface: OriginSurface) -> Option<Hit> {
-        let hit = self.solids.nearest(&Ray { origin: ray.origin - self.origin, ..*ray }, origin_surface)?;
+        let hit = self.solids.nearest(&self.relative(ray), origin_surface)?;
         Some(Hit { point: hit.point + self.origin, ..hit })
     }
 
     /// What a primary ray of unit direction sees.
     pub fn look_along(&self, primary: Ray) -> Pixel {
-        let ray = Ray { origin: primary.origin - self.origin, ..primary };
+        let ray = self.relative(&primary);
         let mut path = Path::default();
         let nearest = self.solids.nearest(&ray, OriginSurface::Free);
         if let Some(light) = self.light_sphere_before(&ray, nearest.as_ref()) {
@@ -52,11 +52,9 @@ impl<'a> World<'a> {
             path.add_light_sphere(light);
             return Pixel { color, first_hit: LIGHT_SPHERE, path: path.signature() };
         }
-        let medium = self.medium_about(&ray, OriginSurface::Free);
-        let start = Leg { ray, origin_surface: OriginSurface::Free, weight: 1.0, medium, generation: 0 };
         let mut color = DVec3::ZERO;
         // The last in is the next out.
-        let mut legs = if self.scene.max_depth > 0 { vec![start] } else { Vec::new() };
+        let mut legs = if self.scene.max_depth > 0 { vec![self.first_leg(ray)] } else { Vec::new() };
         let mut known = Some(nearest);
         while let Some(leg) = legs.pop() {
             let hit = known.take().unwrap_or_else(|| self.solids.nearest(&leg.ray, leg.origin_surface));
@@ -77,8 +75,19 @@ impl<'a> World<'a> {
         Pixel { color, first_hit, path: path.signature() }
     }
 
+    /// A ray of the world frame as seen from the origin of all that is kept here.
+    pub(super) fn relative(&self, ray: &Ray) -> Ray {
+        Ray { origin: ray.origin - self.origin, ..*ray }
+    }
+
+    /// A path's beginning along a primary ray.
+    pub(super) fn first_leg(&self, ray: Ray) -> Leg {
+        let medium = self.medium_about(&ray, OriginSurface::Free);
+        Leg { ray, origin_surface: OriginSurface::Free, weight: 1.0, medium, generation: 0 }
+    }
+
     /// The mirrored and the refracted ray from a hit, as far as they weigh anything; the heavier comes last.
-    fn onward(&self, leg: &Leg, hit: &Hit, path: &mut Path) -> [Option<Leg>; 2] {
+    pub(super) fn onward(&self, leg: &Leg, hit: &Hit, path: &mut Path) -> [Option<Leg>; 2] {
         let Primitive { material, solid, .. } = &self.scene.primitives[hit.primitive as usize];
         let mut mirror_weight = leg.weight * material.reflection();
         let mut through_weight = leg.weight * material.transmission;
@@ -129,7 +138,19 @@ impl<'a> World<'a> {
 
     /// E of the model: what a hit sends back along the ray without reflections, linear RGB.
     fn local_radiance(&self, hit: &Hit, ray_direction: DVec3, material: &Material, path: &mut Path) -> DVec3 {
-        let mut sum = finite(material.ambient * material.color * self.scene.ambient_light);
+        let ambient = finite(material.ambient * material.color * self.scene.ambient_light);
+        self.with_direct_light(ambient, hit, ray_direction, material, path)
+    }
+
+    /// A sum, linear RGB, with what the lights add to it that a hit sends back along the ray.
+    pub(super) fn with_direct_light(
+        &self,
+        mut sum: DVec3,
+        hit: &Hit,
+        ray_direction: DVec3,
+        material: &Material,
+        path: &mut Path,
+    ) -> DVec3 {
         for (light, &position) in self.scene.lights.iter().zip(&self.light_positions) {
             let distance = (position - hit.point).length();
             // NaN for a light at the hit point, which therefore gives nothing.
@@ -169,7 +190,7 @@ impl<'a> World<'a> {
     }
 
     /// The light whose sphere is nearer than any primitive, and seen from outside.
-    fn light_sphere_before(&self, ray: &Ray, hit: Option<&Hit>) -> Option<u32> {
+    pub(super) fn light_sphere_before(&self, ray: &Ray, hit: Option<&Hit>) -> Option<u32> {
         let entry = |sphere: &Option<Solids>| {
             let entry = sphere.as_ref()?.nearest(ray, OriginSurface::Free)?;
             (entry.side == Side::Outside).then_some(entry.t)
@@ -183,13 +204,14 @@ impl<'a> World<'a> {
 
 /// A part of a path from one surface to the next.
 #[derive(Debug, Clone, Copy)]
-struct Leg {
-    ray: Ray,
-    origin_surface: OriginSurface,
-    weight: f64,
+pub(super) struct Leg {
+    pub ray: Ray,
+    pub origin_surface: OriginSurface,
+    pub weight: f64,
     /// Refractive index of what it goes through.
-    medium: f64,
-    generation: u32,
+    pub medium: f64,
+    /// 0 of the primary ray.
+    pub generation: u32,
 }
 
 /// Origin of positions, so that a rounded one is not off by more than solids are small: the world's origin,
@@ -238,6 +260,6 @@ fn power(x: f64, n: u32) -> f64 {
 }
 
 /// Overflow stops at the largest number, so that no sum becomes infinite or, by ∞ − ∞, NaN.
-fn finite(color: DVec3) -> DVec3 {
+pub(super) fn finite(color: DVec3) -> DVec3 {
     color.clamp(DVec3::MIN, DVec3::MAX)
 }
