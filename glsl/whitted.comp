@@ -11,6 +11,9 @@ layout(local_size_x_id = 5, local_size_y_id = 6) in;
 #include "camera/picture.glsl"
 #define Weight Real
 #include "transport/transport.glsl"
+
+void put(uint index, Path path, bool is_ended) { put(index, path.color, is_ended); }
+
 #include "whitted/trace.glsl"
 
 void main() { trace(view()); }

@@ -1,4 +1,4 @@
-// Primary rays through all their generations, step by step.
+// Primary rays through all their generations, step by step. What is kept of a pixel's path decides the kernel: `put`.
 #include "branches.glsl"
 
 // Sets a path's next ray out to the nearest hit: a primary one, through the invocation's pixel of this index, or one on
@@ -85,7 +85,7 @@ void trace(View view) {
             iterations++;
             bool starts = is_packet_at_rest && begun < PIXELS;
             if (starts || is_to_set_out(path)) {
-                if (starts && begun > 0u) put(begun - 1u, path.color, true);
+                if (starts && begun > 0u) put(begun - 1u, path, true);
                 set_out(starts, begun, view, path);
                 begun += starts ? 1u : 0u;
             }
@@ -114,7 +114,7 @@ void trace(View view) {
     }
     // The last pixel, unfinished if iterations ran out; then those never begun: black.
     for (;;) {
-        put(begun - 1u, path.color, iterations < MAX_ITERATIONS);
+        put(begun - 1u, path, iterations < MAX_ITERATIONS);
         if (begun == PIXELS) break;
         begun++;
         path.color = Real3(0.0);

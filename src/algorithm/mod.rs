@@ -22,6 +22,8 @@ pub enum Algorithm {
     /// The accurate model with compensated sums where rounding would show.
     #[default]
     Whitted,
+    /// The accurate model, but that mirrors show only what the camera sees, in `f32`.
+    Ssr,
     /// The accurate model in `f64` on the CPU, without Vulkan.
     Reference,
 }
@@ -35,6 +37,8 @@ pub enum Kernel {
     Plain,
     /// `f32` or `f64`; not every device has the latter.
     Whitted(Precision),
+    /// `f32`.
+    Ssr,
 }
 
 /// A row of [`ALGORITHMS`].
@@ -67,7 +71,7 @@ pub struct Description {
 }
 
 /// Every algorithm, the course work's first.
-pub static ALGORITHMS: [Description; 4] = [
+pub static ALGORITHMS: [Description; 5] = [
     Description {
         algorithm: Algorithm::Course,
         name: "course",
@@ -111,6 +115,20 @@ pub static ALGORITHMS: [Description; 4] = [
         is_in_fps_table: true,
     },
     Description {
+        algorithm: Algorithm::Ssr,
+        name: "ssr",
+        about: "Screen-space reflections: the accurate model, but mirrors show only what the camera sees; no refraction",
+        precisions: &[Precision::F32],
+        kernels: &[Kernel::Ssr],
+        approximates: false,
+        has_hierarchy: true,
+        samples: false,
+        is_of_accurate_model: true,
+        is_accurate: false,
+        has_close_ups: true,
+        is_in_fps_table: false,
+    },
+    Description {
         algorithm: Algorithm::Reference,
         name: "reference",
         about: "The accurate model in f64 on the CPU, without Vulkan: the truth, slowly",
@@ -130,6 +148,11 @@ impl Description {
     /// Whether Vulkan runs it, rather than this program on the CPU.
     pub fn is_on_device(&self) -> bool {
         !self.kernels.is_empty()
+    }
+
+    /// Whether its rays can be tried one by one: what a picture shows comes of them alone.
+    pub fn casts_rays(&self) -> bool {
+        self.is_on_device() && !self.kernels.iter().any(|kernel| kernel.draws_whole())
     }
 
     /// Whether a precision can be asked for.
@@ -175,7 +198,7 @@ impl Algorithm {
 
 impl ValueEnum for Algorithm {
     fn value_variants<'a>() -> &'a [Self] {
-        &[Self::Course, Self::Plain, Self::Whitted, Self::Reference]
+        &[Self::Course, Self::Plain, Self::Whitted, Self::Ssr, Self::Reference]
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
@@ -196,13 +219,19 @@ impl Kernel {
             Self::Course => Algorithm::Course,
             Self::Plain => Algorithm::Plain,
             Self::Whitted(_) => Algorithm::Whitted,
+            Self::Ssr => Algorithm::Ssr,
         }
+    }
+
+    /// Whether it needs the whole picture at once, and draws no tiles of it.
+    pub fn draws_whole(self) -> bool {
+        self == Self::Ssr
     }
 
     /// What it calculates in.
     pub fn precision(self) -> Precision {
         match self {
-            Self::Course | Self::Plain => Precision::F32,
+            Self::Course | Self::Plain | Self::Ssr => Precision::F32,
             Self::Whitted(precision) => precision,
         }
     }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use super::interrupt::Listener;
@@ -59,6 +59,8 @@ pub struct RenderArgs {
     /// How much of the light model is drawn, by whitted, plain or reference
     #[arg(long, value_enum, default_value_t)]
     pub shading: Shading,
+    #[command(flatten)]
+    pub ssr: SsrArgs,
     /// Draw as a file of `zerkalo trade --save-settings` says
     #[arg(long, value_name = "FILE", conflicts_with_all = ["algorithm", "precision", "max_depth", "error", "samples", "scale", "shading"])]
     pub settings: Option<PathBuf>,
@@ -74,6 +76,40 @@ pub struct RenderArgs {
     pub json: bool,
 }
 
+/// What only screen-space reflections have.
+#[derive(Debug, Clone, Args)]
+pub struct SsrArgs {
+    /// Of ssr: whether shadow rays are cast
+    #[arg(long, value_enum, default_value_t)]
+    pub ssr_shadows: SsrShadows,
+    /// Of ssr: write another picture, of why reflections may be wrong; docs/screen-space.md has its colours
+    #[arg(long, value_name = "OUT")]
+    pub ssr_reasons: Option<PathBuf>,
+}
+
+/// Whether screen-space reflections cast shadow rays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum SsrShadows {
+    /// To every light
+    #[default]
+    Rays,
+    /// No surface hides a light
+    None,
+}
+
+impl SsrArgs {
+    /// # Errors
+    /// They are for another algorithm.
+    fn check(&self, algorithm: Algorithm) -> Result<()> {
+        let is_given = self.ssr_shadows != SsrShadows::default() || self.ssr_reasons.is_some();
+        if is_given && algorithm != Algorithm::Ssr {
+            let what = format!("--ssr-shadows and --ssr-reasons are for the ssr algorithm, not for {}", algorithm.name());
+            return Err(TracerError::Refused(what).into());
+        }
+        self.ssr_reasons.iter().try_for_each(|path| Ok(Frame::check_output_path(path)?))
+    }
+}
+
 /// What `--json` prints.
 #[derive(Debug, Serialize)]
 struct Report<'a> {
@@ -87,6 +123,8 @@ struct Report<'a> {
     error_bound: f64,
     /// Why the picture is not right; null where it is.
     warning: &'a Option<String>,
+    /// What the algorithm leaves out whatever the scene; null where it is nothing.
+    note: &'a Option<String>,
     samples_per_pixel: u32,
     /// Size of the traced picture against this one.
     scale: f64,
@@ -109,6 +147,7 @@ struct Rendered {
     sampling: Sampling,
     error_bound: f64,
     warning: Option<String>,
+    note: Option<String>,
     device: String,
     driver: String,
     samples_ns: Vec<u64>,
@@ -126,7 +165,9 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     }
     let scene =
         if is_from_stream { args.streams.format.unwrap_or_default().read_scene()? } else { scene_named(&args.scene)? };
-    let rendered = match setting(args)? {
+    let setting = setting(args)?;
+    args.ssr.check(setting.map_or(args.algorithm, |setting| setting.algorithm))?;
+    let rendered = match setting {
         Some(setting) => on_device(args, &setting.shading.applied(&scene), &setting)?,
         None => on_cpu(args, args.shading.applied(&scene).into_owned())?,
     };
@@ -175,12 +216,18 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Resu
     let (width, height) = args.size;
     let limits = limits_of(device.description());
     let plan = Plan::for_scene(scene, setting, [width, height], &limits)?.with_f32_tried(scene);
-    let (settings, error_bound, warning) = (Settings::planned(&plan), plan.bounds.total(), plan.warning());
+    let (mut settings, error_bound, warning) = (Settings::planned(&plan), plan.bounds.total(), plan.warning());
+    let note = plan.screen_space_line().map(|line| format!("{} {}: {}", line.what, line.choice, line.why));
+    settings.approximations.shadows &= args.ssr.ssr_shadows == SsrShadows::Rays;
     if let Some(warning) = &warning {
         eprintln!("warning: {warning}");
     }
     let mut tracer = Tracer::new(&device, scene, &settings)?;
     let (frame, samples_ns) = render(&mut tracer, args.repeat, &listener)?;
+    if let Some(path) = &args.ssr.ssr_reasons {
+        tracer.set_scene(scene, &Settings { shows_reasons: true, ..settings.clone() })?;
+        render(&mut tracer, None, &listener)?.0.save(path)?;
+    }
     // Destroyed before the messages are counted: the layers check that too.
     drop((tracer, device));
     if listener.stop_requested() {
@@ -196,6 +243,7 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Resu
         sampling,
         error_bound,
         warning,
+        note,
         device: name,
         driver,
         samples_ns,
@@ -232,6 +280,7 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
         sampling: Sampling::PLAIN,
         error_bound: 0.0,
         warning: None,
+        note: None,
         device: "CPU".to_owned(),
         driver,
         samples_ns: Vec::new(),
@@ -263,7 +312,7 @@ fn render(tracer: &mut Tracer, repeat: Option<u32>, listener: &Listener) -> Resu
 
 /// One line of what was done.
 fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
-    let Rendered { algorithm, precision, sampling, error_bound, warning, device, driver, samples_ns, messages, .. } =
+    let Rendered { algorithm, precision, sampling, error_bound, warning, note, device, driver, samples_ns, messages, .. } =
         rendered;
     let Sampling { samples, scale } = *sampling;
     let gpu_time_ns = median(samples_ns);
@@ -276,6 +325,7 @@ fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
             precision: *precision,
             error_bound: *error_bound,
             warning,
+            note,
             samples_per_pixel: samples,
             scale,
             device,
@@ -298,5 +348,6 @@ fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
     let samples = if samples > 1 { format!(", {samples} samples a pixel") } else { String::new() };
     let scale = if scale < 1.0 { format!(", traced at {scale:.4} of that") } else { String::new() };
     let picture = format!("{width}x{height}{scale}{samples}");
-    Ok(format!("wrote {} ({picture}, {device}, {time}{of}{bound})", output.escape_debug()))
+    let note = note.as_ref().map(|note| format!("\n{note}")).unwrap_or_default();
+    Ok(format!("wrote {} ({picture}, {device}, {time}{of}{bound}){note}", output.escape_debug()))
 }

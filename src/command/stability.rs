@@ -26,7 +26,7 @@ use crate::tracer::TracerError;
 #[derive(Debug, Clone, Args)]
 pub struct StabilityArgs {
     /// Only this algorithm [default: all]
-    #[arg(long, alias = "kernel", value_parser = parse_algorithm(Description::is_on_device))]
+    #[arg(long, alias = "kernel", value_parser = parse_algorithm(Description::casts_rays))]
     pub algorithm: Option<Algorithm>,
     /// Only this precision of whitted [default: both, where the device has f64]
     #[arg(long, value_enum)]
@@ -123,7 +123,8 @@ pub(super) fn kernels(args: &StabilityArgs, device: &DeviceDescription) -> Resul
         let settings = RenderSettings { algorithm, precision: args.precision, ..RenderSettings::default() };
         settings.check().map_err(|contradiction| TracerError::Refused(contradiction.what))?;
     }
-    let rows = ALGORITHMS.iter().filter(|row| args.algorithm.is_none_or(|algorithm| algorithm == row.algorithm));
+    let rows = ALGORITHMS.iter().filter(|row| row.casts_rays());
+    let rows = rows.filter(|row| args.algorithm.is_none_or(|algorithm| algorithm == row.algorithm));
     let kernels = rows.flat_map(|row| {
         // Where there is no choice, none is asked for.
         let is_asked =

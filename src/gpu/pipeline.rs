@@ -25,6 +25,8 @@ pub enum BindingKind {
     Texels(Texel),
     /// A storage buffer of pixels that is written, or read and written.
     Pixels,
+    /// The same, if it is only read.
+    PixelsRead,
     /// A storage image that is written, or read and written.
     Picture,
     /// A storage image that is only read.
@@ -35,7 +37,7 @@ impl BindingKind {
     fn descriptor_type(self) -> vk::DescriptorType {
         match self {
             Self::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
-            Self::Storage | Self::Records | Self::Pixels => vk::DescriptorType::STORAGE_BUFFER,
+            Self::Storage | Self::Records | Self::Pixels | Self::PixelsRead => vk::DescriptorType::STORAGE_BUFFER,
             Self::Texels(_) => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
             Self::Picture | Self::PictureRead => vk::DescriptorType::STORAGE_IMAGE,
         }
@@ -43,7 +45,9 @@ impl BindingKind {
 
     fn use_(self) -> Use {
         match self {
-            Self::Uniform | Self::Records | Self::Texels(_) | Self::PictureRead => Use::ShaderRead,
+            Self::Uniform | Self::Records | Self::Texels(_) | Self::PixelsRead | Self::PictureRead => {
+                Use::ShaderRead
+            }
             Self::Storage | Self::Pixels | Self::Picture => Use::ShaderWrite,
         }
     }
@@ -251,7 +255,7 @@ impl Resource {
                 BindingKind::Uniform => buffer.kind == BufferKind::Uniform,
                 BindingKind::Storage => buffer.kind == BufferKind::Storage,
                 BindingKind::Records => buffer.kind == BufferKind::Records,
-                BindingKind::Pixels => buffer.kind == BufferKind::Pixels,
+                BindingKind::Pixels | BindingKind::PixelsRead => buffer.kind == BufferKind::Pixels,
                 BindingKind::Texels(texel) => buffer.kind == BufferKind::Texels(texel),
                 BindingKind::Picture | BindingKind::PictureRead => false,
             },

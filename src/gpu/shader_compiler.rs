@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Left as the front end writes them, without the performance passes: those turn each early return into a one-trip loop
 /// before inlining it. Measured on lavapipe, which inlines without that: the course's kernel was 30 % slower, the
 /// accurate one 12 %.
-pub const AS_WRITTEN: [&str; 3] = ["course", "probe_course_rays", "whitted"];
+pub const AS_WRITTEN: [&str; 5] = ["course", "probe_course_rays", "ssr_light", "ssr_reflect", "whitted"];
 
 /// One build of a kernel's source: what is appended to its name, and macros with their values.
 #[derive(Clone, Copy)]
@@ -46,10 +46,21 @@ const WITH_PACKETS: [Variant; 6] = [
     whitted("_plain_packets", &[("REAL_BITS", "32"), ("COMPENSATION", "0"), ("PACKETS", "1")]),
 ];
 
+/// In `f32`, for whichever devices.
+const IN_F32: [Variant; 2] = [
+    whitted("", &[("REAL_BITS", "32"), ("COMPENSATION", "1"), ("PACKETS", "0")]),
+    whitted("_packets", &[("REAL_BITS", "32"), ("COMPENSATION", "1"), ("PACKETS", "1")]),
+];
+
+/// In `f32`, each invocation for itself.
+const IN_F32_ALONE: [Variant; 1] = [IN_F32[0]];
+
 /// The builds of a kernel, by its [name](kernel_name).
 pub fn variants(name: &str) -> &'static [Variant] {
     match name {
         "whitted" => &WITH_PACKETS,
+        "ssr_light" => &IN_F32,
+        "ssr_reflect" => &IN_F32_ALONE,
         "probe_rays" => &WITH_PLAIN,
         "probe_exact" => &PRECISIONS,
         _ => &[AS_IT_STANDS],

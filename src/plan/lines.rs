@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use super::reason::Short;
 use super::{Decision, Plan, Reason, Structure};
+use crate::algorithm::Algorithm;
 use crate::scene::SolidKind;
 
 /// A decision as people read it.
@@ -42,6 +43,7 @@ impl Plan {
         lines.extend([self.light_spheres_line(), self.lights_line(), self.shadows_line(), self.highlights_line()]);
         lines.extend(self.light_model.lines());
         lines.push(self.generations_line());
+        lines.extend(self.screen_space_line());
         lines.push(Line::new("precision", self.precision.choice.name(), &self.precision, None));
         lines.extend(self.close_up_line());
         let [width, height] = self.workgroup.choice;
@@ -109,6 +111,18 @@ impl Plan {
             _ => None,
         };
         Line::new("generations", generations, &self.generations, saves.as_deref())
+    }
+
+    /// What an algorithm leaves out of the light model whatever the scene.
+    pub fn screen_space_line(&self) -> Option<Line> {
+        (self.settings.algorithm == Algorithm::Ssr).then(|| Line {
+            what: "mirrored rays",
+            choice: "on screen".to_owned(),
+            why: "they find only what the camera sees, else the background; refracted rays are left out; there is no \
+                  bound on the error"
+                .to_owned(),
+            saves: Some("the search for what mirrored rays meet, and its shadow rays".to_owned()),
+        })
     }
 
     fn close_up_line(&self) -> Option<Line> {

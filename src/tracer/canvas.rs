@@ -277,7 +277,8 @@ impl Canvas {
         } else if self.sweep.left() == 0 || self.is_in_place {
             self.begin(recorder)?;
         }
-        let blocks = self.timing.pace.blocks().min(self.sweep.left());
+        let is_whole = self.renderer.kernel().draws_whole();
+        let blocks = if is_whole { self.sweep.left() } else { self.timing.pace.blocks().min(self.sweep.left()) };
         if blocks == 0 {
             return Ok(());
         }

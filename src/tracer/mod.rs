@@ -8,6 +8,7 @@ mod pixels;
 pub mod probe;
 mod renderer;
 mod settings;
+mod ssr;
 mod target;
 mod tiles;
 mod upscale;

@@ -94,7 +94,7 @@ impl Probe {
                     constants: &[],
                 },
             )?,
-            Kernel::Plain | Kernel::Whitted(_) => {
+            Kernel::Plain | Kernel::Ssr | Kernel::Whitted(_) => {
                 let precision = kernel.precision();
                 check_precision(device, precision)?;
                 let features = Features { kinds: [true; 4], ..Features::default() };
@@ -104,7 +104,7 @@ impl Probe {
                 let description = PipelineDescription {
                     shader: match kernel {
                         Kernel::Whitted(Precision::F64) => &shaders::PROBE_RAYS_F64,
-                        Kernel::Whitted(Precision::F32) => &shaders::PROBE_RAYS_F32,
+                        Kernel::Ssr | Kernel::Whitted(Precision::F32) => &shaders::PROBE_RAYS_F32,
                         Kernel::Plain | Kernel::Course => &shaders::PROBE_RAYS_PLAIN,
                     },
                     bindings: &bindings,
@@ -124,7 +124,7 @@ impl Probe {
     pub fn cast(&self, solids: &[Solid], rays: &[ProbeRay]) -> Result<Vec<Option<ProbeHit>>, TracerError> {
         match self.kernel {
             Kernel::Course => self.cast_by_course(solids, rays),
-            Kernel::Plain | Kernel::Whitted(_) => self.cast_by_whitted(solids, rays),
+            Kernel::Plain | Kernel::Ssr | Kernel::Whitted(_) => self.cast_by_whitted(solids, rays),
         }
     }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::course::CourseRenderer;
 use super::pixels::pixel_buffer;
+use super::ssr::SsrRenderer;
 use super::tiles::Tile;
 use super::whitted::WhittedRenderer;
 use super::{Kernel, Settings, TracerError};
@@ -171,6 +172,7 @@ pub(super) fn renderer(
     }
     Ok(match kernel {
         Kernel::Course => staged(CourseRenderer::new(device, builds, made_for)),
+        Kernel::Ssr => staged(SsrRenderer::new(device, builds, made_for)),
         Kernel::Plain | Kernel::Whitted(_) => staged(WhittedRenderer::new(device, kernel, builds, made_for)),
     })
 }

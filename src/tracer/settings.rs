@@ -36,6 +36,8 @@ pub struct Settings {
     /// Size of the picture that is traced against the one asked for, to which it is brought by bilinear interpolation;
     /// 1/4 to 1. The course kernel takes 1.
     pub scale: f64,
+    /// By screen-space reflections: in place of the picture, why its reflections may be wrong, in colours.
+    pub shows_reasons: bool,
 }
 
 impl Settings {
@@ -53,6 +55,7 @@ impl Settings {
             pixels: None,
             samples: 1,
             scale: 1.0,
+            shows_reasons: false,
         }
     }
 

@@ -75,8 +75,11 @@ impl Target {
     }
 }
 
-/// Side of what one submission traces, pixels: at most `limit`.
+/// Side of what one submission traces, pixels: at most `limit`, but of a picture that is drawn whole.
 fn traced_side(scene: &Scene, settings: &Settings, limit: u32) -> u32 {
+    if settings.kernel.draws_whole() {
+        return settings.width.max(settings.height);
+    }
     let max_tile_side = settings.max_tile_side.clamp(1, limit);
     let solids = scene.primitives.len();
     let has_boxes = settings.kernel.description().has_hierarchy && !settings.without_boxes;

@@ -137,6 +137,8 @@ fn ways(device: &DeviceDescription) -> Vec<Way> {
             ways.push(exact);
             if row.has_hierarchy {
                 ways.push(Way { without_boxes: true, ..exact });
+            }
+            if row.has_hierarchy && !kernel.draws_whole() {
                 ways.push(Way { sampling: SAMPLED, ..exact });
             }
             if row.is_accurate {

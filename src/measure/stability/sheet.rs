@@ -39,7 +39,7 @@ fn rows() -> Vec<(&'static str, Scene)> {
 }
 
 fn columns(device: &Device) -> Vec<(String, Kernel)> {
-    let kernels = ALGORITHMS.iter().flat_map(|row| row.kernels).copied();
+    let kernels = ALGORITHMS.iter().filter(|row| row.casts_rays()).flat_map(|row| row.kernels).copied();
     let kernels = kernels.filter(|kernel| device.description().float64 || kernel.precision() == Precision::F32);
     kernels.map(|kernel| (format!("{} {}", kernel.algorithm().name(), kernel.precision().name()), kernel)).collect()
 }

@@ -44,11 +44,12 @@ struct Group {
 }
 
 /// The last that holds is a setting's.
-const GROUPS: [Group; 7] = [
+const GROUPS: [Group; 8] = [
     Group::new("whitted f32", CIRCLE, palette::BLUE, true, |_| true),
     Group::new("whitted f64", SQUARE, palette::VERMILION, true, |setting| setting.precision == Some(Precision::F64)),
     Group::new("plain", TRIANGLE, palette::GREEN, false, |setting| setting.algorithm == Algorithm::Plain),
     Group::new("course", TRIANGLE_DOWN, palette::NEARLY_BLACK, false, |setting| setting.algorithm == Algorithm::Course),
+    Group::new("ssr", DIAMOND, palette::GREEN, false, |setting| setting.algorithm == Algorithm::Ssr),
     Group::new("scale", BAR, palette::ORANGE, false, |setting| setting.scale < 1.0),
     Group::new("samples", HEXAGON, palette::SKY, false, |setting| setting.samples > 1),
     Group::new("no boxes", DIAMOND, palette::PURPLE, true, |setting| !setting.boxes),

@@ -10,5 +10,6 @@ mod rows;
 mod scene;
 
 pub use records::{SolidRecords, WhittedPushConstants, WhittedRecords};
-pub(super) use renderer::WhittedRenderer;
+pub(super) use pipeline::threads;
+pub(super) use renderer::{WhittedRenderer, WhittedState};
 pub use scene::{check_precision, scene_bindings, upload_scene};

@@ -36,6 +36,8 @@ pub(super) struct WhittedPipeline {
 /// The program's own shader for a kernel on a device.
 pub(super) fn shader_of(device: &Device, kernel: Kernel, workgroup: [u32; 2]) -> &'static Shader {
     match (kernel, has_packets(device, workgroup)) {
+        (Kernel::Ssr, false) => &shaders::SSR_LIGHT,
+        (Kernel::Ssr, true) => &shaders::SSR_LIGHT_PACKETS,
         (Kernel::Whitted(Precision::F64), false) => &shaders::WHITTED_F64,
         (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_PACKETS,
         (Kernel::Whitted(Precision::F32), false) => &shaders::WHITTED_F32,
@@ -51,7 +53,7 @@ fn has_packets(device: &Device, workgroup: [u32; 2]) -> bool {
 }
 
 /// Number of threads of a driver that runs workgroups on CPUs; else 1.
-fn threads(device: &Device) -> u32 {
+pub fn threads(device: &Device) -> u32 {
     match device.description().kind {
         DeviceKind::Cpu => available_parallelism().map_or(1, |threads| threads.get() as u32),
         DeviceKind::Discrete | DeviceKind::Integrated | DeviceKind::Virtual | DeviceKind::Other => 1,
@@ -75,6 +77,10 @@ impl WhittedPipeline {
         let precision = kernel.precision();
         let mut bindings = vec![BindingKind::Pixels];
         bindings.extend(scene_bindings(precision));
+        if kernel == Kernel::Ssr {
+            // What it knows of the surfaces besides their light.
+            bindings.extend([BindingKind::Pixels; 3]);
+        }
         let pixels = if has_packets(device, workgroup) { features.pixels } else { 1 };
         let shader = builds.of(shader_of(device, kernel, workgroup));
         let push_constant_bytes = size_of::<WhittedPushConstants>() as u32;
@@ -143,9 +149,14 @@ impl WhittedPipeline {
         Self::made(device, &self.builds, scene.kernel, scene.features, light_spheres, scene.workgroup)
     }
 
-    /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels.
-    pub fn bind(&self, picture: &Resource, arrays: &[Resource]) -> Result<Arc<BindingSet>, GpuError> {
-        let resources: Vec<_> = [picture].into_iter().chain(arrays).cloned().collect();
+    /// The kernel reading a scene's arrays and writing into `picture`, a buffer of pixels, and into `more`.
+    pub fn bind(
+        &self,
+        picture: &Resource,
+        arrays: &[Resource],
+        more: &[Resource],
+    ) -> Result<Arc<BindingSet>, GpuError> {
+        let resources: Vec<_> = [picture].into_iter().chain(arrays).chain(more).cloned().collect();
         BindingSet::new(&self.with_light_spheres, &resources)
     }
 

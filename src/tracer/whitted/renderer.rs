@@ -9,10 +9,10 @@ use bytemuck::NoUninit;
 use super::super::renderer::{Algorithm, MadeFor, Sample, State, TakenUp, TargetKind};
 use super::super::{Kernel, Settings, TracerError};
 use super::pipeline::{WhittedPipeline, shader_of};
-use super::records::{SolidRecords, WhittedRecords};
+use super::records::{SolidRecords, WhittedPushConstants, WhittedRecords};
 use super::scene::{WhittedScene, check_precision};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Texel, Use};
-use crate::plan::{LightFeatures, MOST_PIXELS, Precision, TraversalCost, WORKGROUP, scene_space_within};
+use crate::plan::{Features, LightFeatures, MOST_PIXELS, Precision, TraversalCost, WORKGROUP, scene_space_within};
 use crate::scene::{Extent, Primitive, Scene};
 
 /// The kernel with the scene that it took up last.
@@ -83,9 +83,31 @@ impl State for WhittedState {
     }
 }
 
+impl WhittedState {
+    /// What the kernel is compiled for.
+    pub fn features(&self) -> Features {
+        self.scene.features
+    }
+
+    /// For the whole picture in one tile.
+    pub fn push_constants(&self) -> WhittedPushConstants {
+        self.scene.view_uniforms.frame
+    }
+}
+
 impl WhittedRenderer {
     pub fn new(device: &Arc<Device>, kernel: Kernel, builds: &Builds, made_for: MadeFor) -> Self {
         Self { kernel, device: device.clone(), builds: builds.clone(), made_for, on_device: None }
+    }
+
+    /// The arrays of the scene taken up last, in the order of their bindings; none before the first.
+    pub fn arrays(&self) -> &[Resource] {
+        self.on_device.as_ref().map_or(&[], |last| &last.arrays)
+    }
+
+    /// Draws into `picture` and, of kernels that bind more, into that; `None` before the first state.
+    pub fn bind_with(&self, picture: &Resource, more: &[Resource]) -> Result<Option<Arc<BindingSet>>, GpuError> {
+        self.on_device.as_ref().map(|last| last.pipeline.bind(picture, &last.arrays, more)).transpose()
     }
 
     /// That an invocation traces one after another.
@@ -188,7 +210,7 @@ impl Algorithm for WhittedRenderer {
     }
 
     fn bind(&self, picture: &Resource) -> Result<Option<Arc<BindingSet>>, GpuError> {
-        self.on_device.as_ref().map(|last| last.pipeline.bind(picture, &last.arrays)).transpose()
+        self.bind_with(picture, &[])
     }
 
     fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, state: &WhittedState, sample: Sample) {
