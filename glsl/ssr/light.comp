@@ -24,10 +24,10 @@ void put(uint index, Path path, bool is_ended) {
         float reflection = is_solid ? path.material.reflection : 0.0;
         float ahead = dot(path.nearest.point - camera.position, camera.ahead);
         float nearness = is_solid && ahead > 0.0 ? 1.0 / ahead : 0.0;
-        uint side = path.nearest.face | uint(path.nearest.inside) << INNER_SIDE_BIT;
+        Side side = Side(path.nearest.face, path.nearest.inside, path.lit);
         radiances[place] = vec4(path.color, is_ended ? reflection : UNFINISHED);
         points[place] = uvec4(floatBitsToUint(path.nearest.point), is_solid ? path.nearest.slot : NOTHING);
-        normals[place] = uvec4(floatBitsToUint(path.nearest.normal), side);
+        normals[place] = uvec4(floatBitsToUint(path.nearest.normal), packed(side));
         depths[place] = vec2(nearness);
     }
 }

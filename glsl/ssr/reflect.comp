@@ -52,8 +52,7 @@ void solve(Ray ray, OriginSurface origin_surface, inout March march, inout Found
 
 bool is_side_shown(Hit hit, uvec2 pixel) {
     uint place = place_of(pixel);
-    bool is_inside = normals[place].w >> INNER_SIDE_BIT != 0u;
-    return points[place].w == hit.slot && is_inside == hit.inside;
+    return points[place].w == hit.slot && side_of(normals[place].w).is_inner == hit.inside;
 }
 
 // Whether the picture shows what was met, and the pixel that does: its own or, at an edge, that beside it where the
@@ -80,10 +79,9 @@ Real3 with_reflections(uvec2 own_pixel, View view, out uint reason) {
     uint place = place_of(own_pixel);
     Real3 color = radiances[place].rgb;
     Real weight = radiances[place].a;
-    uint side = normals[place].w;
+    Side side = side_of(normals[place].w);
     Real3 point = uintBitsToFloat(points[place].xyz), normal = uintBitsToFloat(normals[place].xyz);
-    OriginSurface origin_surface = OriginSurface(points[place].w, bitfieldExtract(side, 0, int(INNER_SIDE_BIT)),
-                                                 side >> INNER_SIDE_BIT != 0u);
+    OriginSurface origin_surface = OriginSurface(points[place].w, side.face, side.is_inner);
     Real3 incident = unit(primary_direction(own_pixel, view));
     uint generation = 1u;
     bool goes_on = weight > 0.0 && generation < frame.depth;

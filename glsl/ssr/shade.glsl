@@ -11,14 +11,15 @@ Real3 unhidden(Light light, Material material, Hit hit, Real3 incident) {
     return shines ? direct : Real3(0.0);
 }
 
-// What a hit sends back along a ray, without its reflections. What shadows leave of its lights is taken from a pixel that
-// shows the same surface beside it, a share for each channel: the highlight and the angle to the lights are the hit's own.
+// What a hit sends back along a ray, without its reflections. Which lights reach it is taken from a pixel that shows the
+// same surface beside it, and so is what transparent solids leave of them all; highlight and angles are the hit's own.
 Real3 radiance_along(Real3 incident, Hit hit, Material material, uvec2 pixel, View view) {
     uint place = place_of(pixel);
+    Side side = side_of(normals[place].w);
     Hit shown = hit;
     shown.point = uintBitsToFloat(points[place].xyz);
     shown.normal = uintBitsToFloat(normals[place].xyz);
-    shown.face = bitfieldExtract(normals[place].w, 0, int(INNER_SIDE_BIT));
+    shown.face = side.face;
     Real3 to_shown = unit(primary_direction(pixel, view));
 
     Real3 ambient = limited(material.ambient * material.color * view.ambient_light);
@@ -27,17 +28,20 @@ Real3 radiance_along(Real3 incident, Hit hit, Material material, uvec2 pixel, Vi
         uint i = 0u;
         for (;;) {
             iterations++;
-            Light next = light(min(i, frame.light_count - 1u));
-            here = limited(here + unhidden(next, material, hit, incident));
-            if (HAS_SHADOWS) there = limited(there + unhidden(next, material, shown, to_shown));
+            uint index = min(i, frame.light_count - 1u);
+            Light next = light(index);
+            bool is_lit = !HAS_SHADOWS || (side.lit >> min(index, LIT_BITS - 1u) & 1u) != 0u;
+            if (is_lit) here = limited(here + unhidden(next, material, hit, incident));
+            if (is_lit && MEDIA != NO_MEDIA) there = limited(there + unhidden(next, material, shown, to_shown));
             i++;
             if (LIGHTS == 1u || !(i < frame.light_count)) break;
         }
     }
-    Real3 share = Real3(1.0);
-    if (HAS_SHADOWS) {
-        Real3 direct = radiances[place].rgb - ambient;
-        share = mix(Real3(0.0), clamp(direct / there, 0.0, 1.0), greaterThan(there, Real3(0.0)));
+    Real share = 1.0;
+    if (MEDIA != NO_MEDIA && largest_component(there) > 0.0) {
+        // Of the brightest channel, which is known best.
+        uint channel = there.x >= max(there.y, there.z) ? 0u : (there.y >= there.z ? 1u : 2u);
+        share = clamp((radiances[place][channel] - ambient[channel]) / there[channel], 0.0, 1.0);
     }
     return limited(ambient + share * here);
 }

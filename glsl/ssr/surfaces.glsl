@@ -6,7 +6,7 @@
 layout(binding = RADIANCES, std430) ACCESS buffer Radiances { vec4 radiances[]; };
 // Scene space; last: the solid's slot, or NOTHING. Unsigned, as a slot's bits are no number that floats keep.
 layout(binding = 8, std430) ACCESS buffer Points { uvec4 points[]; };
-// Unit, towards the camera; last: the face, and whether that is its inner side.
+// Unit, towards the camera; last: the face, whether that is its inner side, and the lights that reach it.
 layout(binding = 9, std430) ACCESS buffer Normals { uvec4 normals[]; };
 // Nearness, 1 / (distance along the optical axis), of what is nearest and of what is farthest: of each pixel, then of
 // 2x2 of them, and so on up to the whole picture. Along a ray it is linear on the screen. Of no solid it is 0.
@@ -14,5 +14,19 @@ layout(binding = 10, std430) ACCESS buffer Depths { vec2 depths[]; };
 
 const float UNFINISHED = -1.0;
 const uint INNER_SIDE_BIT = 4u; // above the faces
+const uint FIRST_LIT_BIT = 5u;  // LIT_BITS of them
+
+struct Side {
+    uint face;
+    bool is_inner;
+    uint lit;
+};
+
+uint packed(Side side) { return side.face | uint(side.is_inner) << INNER_SIDE_BIT | side.lit << FIRST_LIT_BIT; }
+
+Side side_of(uint packed) {
+    return Side(bitfieldExtract(packed, 0, int(INNER_SIDE_BIT)), bitfieldExtract(packed, int(INNER_SIDE_BIT), 1) != 0u,
+                packed >> FIRST_LIT_BIT);
+}
 
 uint place_of(uvec2 pixel) { return pixel.y * unpacked(frame.image_size).x + pixel.x; }

@@ -36,6 +36,7 @@ struct Path {
     Real3 incident;       // the direction of the ray that met it
     Real3 local_radiance;
     uint light_index;     // of the first light that has not been tested
+    uint lit;             // bit of each light that reaches the hit; those from LIT_BITS - 1 on share the last
     // The innermost other solid about the ray's origin, which is the one that the ray straight on leaves first: its
     // refractive index, where the ray leaves it, and its index in the scene.
     Real medium_outside;
@@ -67,6 +68,7 @@ Path path_at_rest(View view) {
     path.incident = path.ray.direction;
     path.local_radiance = Real3(0.0);
     path.light_index = 0u;
+    path.lit = 0u;
     // The only one is read once.
     if (LIGHTS == 1u || LIGHT_SPHERES == 1u) path.light = light(0u);
     return path;

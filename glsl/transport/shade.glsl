@@ -1,5 +1,8 @@
 // What a hit sends back along the ray, and where rays go on: equation 1.19 of the course work (docs/light-model.md).
 
+// Lights that are told apart where a bit is kept of each that reaches a point; those beyond share the last.
+const uint LIT_BITS = 27u;
+
 // Overflow stops at the largest number, so that no sum becomes infinite or, by inf - inf, NaN.
 Real3 limited(Real3 color) { return min(color, Real3(LARGEST)); }
 

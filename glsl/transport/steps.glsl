@@ -21,6 +21,12 @@ void start_in_medium(inout Path path) {
     path.purpose = TO_NEAREST;
 }
 
+// The light with this index reaches the nearest hit.
+void add_light(uint index, Real3 direct, inout Path path) {
+    path.local_radiance = limited(path.local_radiance + direct);
+    path.lit |= 1u << min(index, LIT_BITS - 1u);
+}
+
 // What the search brought up for a path's ray.
 struct Candidate {
     bool is_there;
@@ -50,8 +56,7 @@ bool is_left_to_shade(Candidate candidate, Real3 background, inout Path path) {
     bool has_lights_left = LIGHTS > 1u && path.light_index < frame.light_count;
     bool has_something = path.is_hit || (LIGHT_SPHERES > 0u && path.may_see_light_sphere);
     bool is_left = is_through && (is_shadow ? has_lights_left : has_something);
-    if (is_through && is_shadow && !candidate.hides_light)
-        path.local_radiance = limited(path.local_radiance + path.direct);
+    if (is_through && is_shadow && !candidate.hides_light) add_light(path.light_index - 1u, path.direct, path);
     if (is_through && !is_shadow && !path.is_hit) path.local_radiance = background;
     if (is_through && !is_left) end_generation(path);
     return is_left;
@@ -118,12 +123,13 @@ bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path pat
     if (is_asking && candidate.is_there && !goes_on) path.purpose = ONWARD;
     bool is_done = !is_asking && (is_left_to_shade || (candidate.is_there && !goes_on));
     if (candidate.is_there && is_done && is_shadow && !hides_light)
-        path.local_radiance = limited(path.local_radiance + path.direct);
+        add_light(path.light_index - 1u, path.direct, path);
     if (is_done && !is_shadow) {
         path.local_radiance = path.is_hit ? ambient_radiance(path.material, view) : seen;
         path.origin_surface = OriginSurface(path.nearest.slot, path.nearest.face, path.nearest.inside);
         path.incident = path.ray.direction;
         path.light_index = 0u;
+        path.lit = 0u;
     }
     return is_done;
 }
@@ -158,7 +164,7 @@ bool casts_shadow_ray(bool is_done, inout Path path) {
                 path.ray = Ray(path.nearest.point, Real3(0.0), to_light);
                 path.direct = direct;
             } else if (shines) {
-                path.local_radiance = limited(path.local_radiance + (is_faint ? Real3(0.5) * direct : direct));
+                add_light(path.light_index, is_faint ? Real3(0.5) * direct : direct, path);
             }
             path.light_index += is_seeking ? 1u : 0u;
             is_seeking = is_seeking && !is_lit && path.light_index < frame.light_count;

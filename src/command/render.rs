@@ -103,7 +103,8 @@ impl SsrArgs {
     fn check(&self, algorithm: Algorithm) -> Result<()> {
         let is_given = self.ssr_shadows != SsrShadows::default() || self.ssr_reasons.is_some();
         if is_given && algorithm != Algorithm::Ssr {
-            let what = format!("--ssr-shadows and --ssr-reasons are for the ssr algorithm, not for {}", algorithm.name());
+            let what =
+                format!("--ssr-shadows and --ssr-reasons are for the ssr algorithm, not for {}", algorithm.name());
             return Err(TracerError::Refused(what).into());
         }
         self.ssr_reasons.iter().try_for_each(|path| Ok(Frame::check_output_path(path)?))
@@ -312,8 +313,19 @@ fn render(tracer: &mut Tracer, repeat: Option<u32>, listener: &Listener) -> Resu
 
 /// One line of what was done.
 fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
-    let Rendered { algorithm, precision, sampling, error_bound, warning, note, device, driver, samples_ns, messages, .. } =
-        rendered;
+    let Rendered {
+        algorithm,
+        precision,
+        sampling,
+        error_bound,
+        warning,
+        note,
+        device,
+        driver,
+        samples_ns,
+        messages,
+        ..
+    } = rendered;
     let Sampling { samples, scale } = *sampling;
     let gpu_time_ns = median(samples_ns);
     let (width, height) = args.size;

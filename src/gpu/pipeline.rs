@@ -45,9 +45,7 @@ impl BindingKind {
 
     fn use_(self) -> Use {
         match self {
-            Self::Uniform | Self::Records | Self::Texels(_) | Self::PixelsRead | Self::PictureRead => {
-                Use::ShaderRead
-            }
+            Self::Uniform | Self::Records | Self::Texels(_) | Self::PixelsRead | Self::PictureRead => Use::ShaderRead,
             Self::Storage | Self::Pixels | Self::Picture => Use::ShaderWrite,
         }
     }

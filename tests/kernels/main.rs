@@ -28,6 +28,7 @@ mod rendering;
 mod right_by_default;
 mod sampling;
 mod sharing;
+mod ssr;
 mod stability;
 mod validation;
 mod whitted_arithmetic;

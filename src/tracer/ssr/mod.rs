@@ -154,8 +154,7 @@ impl Algorithm for SsrRenderer {
             }
         };
         let light_set = self.bind_light(&surfaces)?;
-        self.on_device =
-            light_set.map(|light_set| OnDevice { surfaces, light_set, pyramid_set, reflections });
+        self.on_device = light_set.map(|light_set| OnDevice { surfaces, light_set, pyramid_set, reflections });
         Ok(taken_up)
     }
 

@@ -9,7 +9,7 @@ mod renderer;
 mod rows;
 mod scene;
 
-pub use records::{SolidRecords, WhittedPushConstants, WhittedRecords};
 pub(super) use pipeline::threads;
+pub use records::{SolidRecords, WhittedPushConstants, WhittedRecords};
 pub(super) use renderer::{WhittedRenderer, WhittedState};
 pub use scene::{check_precision, scene_bindings, upload_scene};
