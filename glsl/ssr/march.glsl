@@ -15,6 +15,7 @@ struct March {
     float nearness_slope;
     float at;            // x of the above, so far
     float end;           // at x, of what is met or infinitely far away
+    uint steps_left;
     uint level;          // of the pyramid
     uint first;          // where that begins
     uint own;            // slot that it cannot meet
@@ -52,6 +53,10 @@ March march_along(Ray ray, OriginSurface origin_surface, View view, bool is_ther
     march.nearness_slope = -march.nearness * slope.z;
     march.at = 0.0;
     march.end = slope.z > 0.0 ? 1.0 / slope.z : LARGEST;
+    // Each step that is not down a level crosses an edge of a pixel, and for each down there is one up. Twice that, as
+    // rounding may cost a step here and there.
+    uvec2 picture = unpacked(frame.image_size);
+    march.steps_left = 4u * (picture.x + picture.y) + 64u;
     march.level = 0u;
     march.first = 0u;
     march.own = origin_surface.inside ? NOTHING : origin_surface.slot;
@@ -90,6 +95,7 @@ void step_on(inout March march) {
     ivec2 cell = ivec2(floor((place_at(march, march.at) + NUDGE * sign(march.slope)) / side));
     uvec2 size = level_size(march.level);
     bool is_on_screen = all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(size)));
+    march.steps_left--;
 
     vec2 edges = (vec2(cell) + step(0.0, march.slope)) * side;
     vec2 exits = (edges - march.start) / march.slope;
@@ -103,7 +109,7 @@ void step_on(inout March march) {
     bool is_hidden = march.is_behind && max(here, there) < seen.y;
     bool is_skipped = is_in_front || is_hidden;
     bool is_pixel = march.level == 0u;
-    if (!is_on_screen) {
+    if (!is_on_screen || march.steps_left == 0u) {
         march.ending = OFF_SCREEN;
     } else if (is_skipped || is_pixel) {
         bool is_behind = is_hidden;

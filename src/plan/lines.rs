@@ -49,8 +49,7 @@ impl Plan {
         let [width, height] = self.workgroup.choice;
         lines.push(Line::new("workgroup", format!("{width}x{height}"), &self.workgroup, None));
         lines.push(Line::new("pixels per invocation", self.pixels.choice, &self.pixels, None));
-        let side = self.tile_side.choice;
-        lines.push(Line::new("tiles", format!("{side}x{side}"), &self.tile_side, None));
+        lines.push(self.tiles_line());
         lines.extend(self.shadow_cut_line());
         lines.push(self.error_line());
         lines
@@ -123,6 +122,19 @@ impl Plan {
                 .to_owned(),
             saves: Some("the search for what mirrored rays meet, and its shadow rays".to_owned()),
         })
+    }
+
+    fn tiles_line(&self) -> Line {
+        let side = self.tile_side.choice;
+        match self.kernel.draws_whole() {
+            true => Line {
+                what: "tiles",
+                choice: "none".to_owned(),
+                why: "the picture is drawn whole".to_owned(),
+                saves: None,
+            },
+            false => Line::new("tiles", format!("{side}x{side}"), &self.tile_side, None),
+        }
     }
 
     fn close_up_line(&self) -> Option<Line> {

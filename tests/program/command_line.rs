@@ -58,7 +58,7 @@ fn render_writes_the_picture_and_reports_it_as_json() {
     for output in ["x.png", "x.exr"] {
         let report = place.json(&render("four", output, &["--size", "160x69", "--json", "--repeat", "2"]));
         let documented = "width height kernel precision error_bound samples_per_pixel scale device driver gpu_time_ns \
-                          samples_ns validation_messages validation_remarks warning"
+                          note samples_ns validation_messages validation_remarks warning"
             .split(' ');
         assert_eq!(keys(&report), documented.collect());
         assert_eq!((&report["width"], &report["height"]), (&160.into(), &69.into()));

@@ -13,6 +13,7 @@ mod command_line;
 mod fps;
 mod report;
 mod setup;
+mod ssr;
 mod streams;
 mod trade;
 mod validate;

@@ -98,14 +98,16 @@ impl Algorithm for SsrRenderer {
     }
 
     fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError> {
-        self.light.rebuild(builds)?;
+        if let Some(last) = &mut self.on_device {
+            let pyramid = DepthPyramid::new(&self.device, builds)?;
+            let pyramid_set = pyramid.bind(&last.surfaces)?;
+            let reflections = Reflections::new(&self.device, builds, last.reflections.variant)?;
+            self.light.rebuild(builds)?;
+            (last.pyramid_set, last.reflections, self.pyramid) = (pyramid_set, reflections, Some(pyramid));
+        } else {
+            self.light.rebuild(builds)?;
+        }
         self.builds = builds.clone();
-        let Some(last) = &self.on_device else { return Ok(()) };
-        let pyramid = DepthPyramid::new(&self.device, builds)?;
-        let pyramid_set = pyramid.bind(&last.surfaces)?;
-        let reflections = Reflections::new(&self.device, builds, last.reflections.variant)?;
-        self.pyramid = Some(pyramid);
-        self.on_device = self.on_device.take().map(|last| OnDevice { pyramid_set, reflections, ..last });
         self.bind_light_again()
     }
 
