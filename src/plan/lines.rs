@@ -117,9 +117,7 @@ impl Plan {
         (self.settings.algorithm == Algorithm::Ssr).then(|| Line {
             what: "mirrored rays",
             choice: "on screen".to_owned(),
-            why: "they find only what the camera sees, else the background; refracted rays are left out; there is no \
-                  bound on the error"
-                .to_owned(),
+            why: "they find only what the camera sees, else the background; refracted rays are left out".to_owned(),
             saves: Some("the search for what mirrored rays meet, and its shadow rays".to_owned()),
         })
     }
@@ -165,6 +163,10 @@ impl Plan {
 
     fn error_line(&self) -> Line {
         let (error, bounds) = (self.settings.error, &self.bounds);
+        if self.screen_space_line().is_some() {
+            let why = "how far reflections are off is bounded by nothing".to_owned();
+            return Line { what: "error", choice: "unknown".to_owned(), why, saves: None };
+        }
         let why = if bounds.total() == 0.0 {
             "nothing is left out that a pixel could show".to_owned()
         } else {

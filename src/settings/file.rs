@@ -199,7 +199,7 @@ mod tests {
             ("\n\nmax_depth = -1", 3, "max_depth: "),
             ("max_depth = \"two\"", 1, "max_depth: "),
             ("max_depth = 0", 1, "max_depth = 0"),
-            ("kernel = \"course\"\nerror = 0.1", 2, "the course algorithm leaves out nothing"),
+            ("kernel = \"course\"\nerror = 0.1", 2, "the course algorithm keeps to no error"),
             (
                 "precision = \"f64\"\nkernel = \"plain\"",
                 1,

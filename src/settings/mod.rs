@@ -92,7 +92,7 @@ impl RenderSettings {
         }
         if error > 0.0 && !algorithm.description().approximates {
             let others = Algorithm::names(|other| other.approximates);
-            return refuse("error", format!("the {name} algorithm leaves out nothing: an error is for {others}"));
+            return refuse("error", format!("the {name} algorithm keeps to no error: that is for {others}"));
         }
         if !boxes && !algorithm.description().has_hierarchy {
             return refuse("boxes", format!("the {name} algorithm has no boxes to go without"));
