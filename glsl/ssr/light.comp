@@ -26,9 +26,9 @@ void put(uint index, Path path, bool is_ended) {
         float nearness = is_solid && ahead > 0.0 ? 1.0 / ahead : 0.0;
         Side side = Side(path.nearest.face, path.nearest.inside, path.lit);
         radiances[place] = vec4(path.color, is_ended ? reflection : UNFINISHED);
-        points[place] = uvec4(floatBitsToUint(path.nearest.point), is_solid ? path.nearest.slot : NOTHING);
+        points[place] = vec4(path.nearest.point, 0.0);
         normals[place] = uvec4(floatBitsToUint(path.nearest.normal), packed(side));
-        depths[place] = vec2(nearness);
+        depths[place] = uvec2(floatBitsToUint(nearness), is_solid ? path.nearest.slot : NOTHING);
     }
 }
 

@@ -11,12 +11,16 @@ const uint OFF_SCREEN = 2u;
 struct March {
     vec2 start;          // pixels from the picture's top left
     vec2 slope;
+    vec2 inverse_slope;
+    vec2 far_edges;      // of a cell, in cells: 1 where it goes that way
+    vec2 nudged_start;   // where it is looked up
     float nearness;      // at the start
     float nearness_slope;
     float at;            // x of the above, so far
     float end;           // at x, of what is met or infinitely far away
     uint steps_left;
     uint level;          // of the pyramid
+    uint top_level;
     uint first;          // where that begins
     uint own;            // slot that it cannot meet
     uint tested;         // slot that was a candidate last
@@ -50,6 +54,9 @@ March march_along(Ray ray, OriginSurface origin_surface, View view, bool is_ther
     march.nearness = 1.0 / start.z;
     march.start = start.xy * march.nearness;
     march.slope = slope.xy - march.start * slope.z;
+    march.inverse_slope = mix(1.0 / march.slope, vec2(LARGEST), equal(march.slope, vec2(0.0)));
+    march.far_edges = step(0.0, march.slope);
+    march.nudged_start = march.start + NUDGE * sign(march.slope);
     march.nearness_slope = -march.nearness * slope.z;
     march.at = 0.0;
     march.end = slope.z > 0.0 ? 1.0 / slope.z : LARGEST;
@@ -58,6 +65,7 @@ March march_along(Ray ray, OriginSurface origin_surface, View view, bool is_ther
     uvec2 picture = unpacked(frame.image_size);
     march.steps_left = 4u * (picture.x + picture.y) + 64u;
     march.level = 0u;
+    march.top_level = uint(findMSB(max(picture.x, picture.y) - 1u) + 1);
     march.first = 0u;
     march.own = origin_surface.inside ? NOTHING : origin_surface.slot;
     march.tested = NOTHING;
@@ -89,32 +97,29 @@ uint level_area(uint level) {
 
 // To the edge of a cell, or down to a finer one; up to a pixel whose solid the ray may meet.
 void step_on(inout March march) {
-    uvec2 picture = unpacked(frame.image_size);
-    uint top_level = uint(findMSB(max(picture.x, picture.y) - 1u) + 1);
     float side = float(1u << march.level);
-    ivec2 cell = ivec2(floor((place_at(march, march.at) + NUDGE * sign(march.slope)) / side));
+    ivec2 cell = ivec2(floor((march.nudged_start + march.at * march.slope) / side));
     uvec2 size = level_size(march.level);
     bool is_on_screen = all(greaterThanEqual(cell, ivec2(0))) && all(lessThan(cell, ivec2(size)));
     march.steps_left--;
 
-    vec2 edges = (vec2(cell) + step(0.0, march.slope)) * side;
-    vec2 exits = (edges - march.start) / march.slope;
-    exits = mix(exits, vec2(LARGEST), equal(march.slope, vec2(0.0)));
+    vec2 exits = ((vec2(cell) + march.far_edges) * side - march.start) * march.inverse_slope;
     float leave = max(min(min(exits.x, exits.y), march.end), march.at);
     float here = nearness_at(march, march.at), there = nearness_at(march, leave);
 
     uvec2 inside = uvec2(clamp(cell, ivec2(0), ivec2(size) - 1));
-    vec2 seen = depths[march.first + inside.y * size.x + inside.x];
+    bool is_pixel = march.level == 0u;
+    uvec2 depth = depths[march.first + inside.y * size.x + inside.x];
+    uint slot = depth.y;
+    vec2 seen = uintBitsToFloat(is_pixel ? depth.xx : depth);
     bool is_in_front = min(here, there) >= seen.x;
     bool is_hidden = march.is_behind && max(here, there) < seen.y;
     bool is_skipped = is_in_front || is_hidden;
-    bool is_pixel = march.level == 0u;
     if (!is_on_screen || march.steps_left == 0u) {
         march.ending = OFF_SCREEN;
     } else if (is_skipped || is_pixel) {
         bool is_behind = is_hidden;
         if (!is_skipped) {
-            uint slot = points[place_of(inside)].w;
             bool is_other = slot != march.own && slot != NOTHING;
             if (is_other && slot != march.tested) {
                 march.candidate = slot;
@@ -127,8 +132,8 @@ void step_on(inout March march) {
         march.has_passed = march.has_passed || is_behind;
         march.at = leave;
         if (leave >= march.end) march.ending = AT_ITS_END;
-        if (is_skipped && march.level < top_level) {
-            march.first += level_area(march.level);
+        if (is_skipped && march.level < march.top_level) {
+            march.first += size.x * size.y;
             march.level++;
         }
     } else {

@@ -52,7 +52,7 @@ void solve(Ray ray, OriginSurface origin_surface, inout March march, inout Found
 
 bool is_side_shown(Hit hit, uvec2 pixel) {
     uint place = place_of(pixel);
-    return points[place].w == hit.slot && side_of(normals[place].w).is_inner == hit.inside;
+    return depths[place].y == hit.slot && side_of(normals[place].w).is_inner == hit.inside;
 }
 
 // Whether the picture shows what was met, and the pixel that does: its own or, at an edge, that beside it where the
@@ -80,8 +80,8 @@ Real3 with_reflections(uvec2 own_pixel, View view, out uint reason) {
     Real3 color = radiances[place].rgb;
     Real weight = radiances[place].a;
     Side side = side_of(normals[place].w);
-    Real3 point = uintBitsToFloat(points[place].xyz), normal = uintBitsToFloat(normals[place].xyz);
-    OriginSurface origin_surface = OriginSurface(points[place].w, side.face, side.is_inner);
+    Real3 point = points[place].xyz, normal = uintBitsToFloat(normals[place].xyz);
+    OriginSurface origin_surface = OriginSurface(depths[place].y, side.face, side.is_inner);
     Real3 incident = unit(primary_direction(own_pixel, view));
     uint generation = 1u;
     bool goes_on = weight > 0.0 && generation < frame.depth;

@@ -17,7 +17,7 @@ Real3 radiance_along(Real3 incident, Hit hit, Material material, uvec2 pixel, Vi
     uint place = place_of(pixel);
     Side side = side_of(normals[place].w);
     Hit shown = hit;
-    shown.point = uintBitsToFloat(points[place].xyz);
+    shown.point = points[place].xyz;
     shown.normal = uintBitsToFloat(normals[place].xyz);
     shown.face = side.face;
     Real3 to_shown = unit(primary_direction(pixel, view));

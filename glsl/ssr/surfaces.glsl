@@ -4,13 +4,14 @@
 // Linear RGB that comes from there without reflections. Alpha: the share of the mirrored ray, 0 where there is no solid;
 // UNFINISHED of a pixel that did not come to its end.
 layout(binding = RADIANCES, std430) ACCESS buffer Radiances { vec4 radiances[]; };
-// Scene space; last: the solid's slot, or NOTHING. Unsigned, as a slot's bits are no number that floats keep.
-layout(binding = 8, std430) ACCESS buffer Points { uvec4 points[]; };
+// Scene space.
+layout(binding = 8, std430) ACCESS buffer Points { vec4 points[]; };
 // Unit, towards the camera; last: the face, whether that is its inner side, and the lights that reach it.
 layout(binding = 9, std430) ACCESS buffer Normals { uvec4 normals[]; };
 // Nearness, 1 / (distance along the optical axis), of what is nearest and of what is farthest: of each pixel, then of
-// 2x2 of them, and so on up to the whole picture. Along a ray it is linear on the screen. Of no solid it is 0.
-layout(binding = 10, std430) ACCESS buffer Depths { vec2 depths[]; };
+// 2x2 of them, and so on up to the whole picture. Along a ray it is linear on the screen. Of no solid it is 0. Of a pixel
+// both are one: in place of the second stands the solid's slot, or NOTHING, which is no number that floats keep.
+layout(binding = 10, std430) ACCESS buffer Depths { uvec2 depths[]; };
 
 const float UNFINISHED = -1.0;
 const uint INNER_SIDE_BIT = 4u; // above the faces
