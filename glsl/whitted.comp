@@ -12,7 +12,7 @@ layout(local_size_x_id = 5, local_size_y_id = 6) in;
 #define Weight Real
 #include "transport/transport.glsl"
 
-void put(uint index, Path path, bool is_ended) { put(index, path.color, is_ended); }
+void put(uint index, Path path, bool is_ended) { put(index, path.color, is_ended ? 1.0 : 0.0); }
 
 #include "whitted/trace.glsl"
 

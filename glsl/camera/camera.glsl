@@ -26,6 +26,18 @@ uvec2 tile_pixel(uint index) {
 // The last workgroups of a tile reach past its edge.
 bool is_there(uvec2 tile_pixel) { return all(lessThan(tile_pixel, unpacked(frame.tile_size))); }
 
+// Through a place of the window: x right, y up, in [0, 1]^2, what the camera formula was written for. The course feeds it
+// [-1, 1]^2. Of any length.
+Real3 direction_through(Real x, Real y, View view) {
+    bool is_course = view.window_low < 0.0;
+    precise Real window_x = is_course ? 2.0 * x - 1.0 : x;
+    precise Real window_y = is_course ? 2.0 * y - 1.0 : y;
+    precise Real to_left = (1.0 - 2.0 * window_x) * view.half_width;
+    precise Real upward = (2.0 * window_y - 1.0) * view.half_height;
+    precise Real3 direction = view.left * to_left + view.up * upward + view.ahead;
+    return direction;
+}
+
 // Through the centre of a pixel, or of its sample; of any length.
 Real3 primary_direction(uvec2 tile_pixel, View view) {
     uvec2 pixel = unpacked(frame.tile_origin) + tile_pixel, size = unpacked(frame.image_size);
@@ -35,12 +47,12 @@ Real3 primary_direction(uvec2 tile_pixel, View view) {
     // Twice the pixel centre is a whole number: exact.
     precise Real x = Real(2u * pixel.x + 1u) / Real(2u * size.x);
     precise Real y = Real(2u * (size.y - 1u - pixel.y) + 1u) / Real(2u * size.y);
-    // x right, y up, in [0, 1]^2: what the camera formula was written for. The course feeds it [-1, 1]^2.
-    bool is_course = view.window_low < 0.0;
-    precise Real window_x = is_course ? 2.0 * x - 1.0 : x;
-    precise Real window_y = is_course ? 2.0 * y - 1.0 : y;
-    precise Real to_left = (1.0 - 2.0 * window_x) * view.half_width;
-    precise Real upward = (2.0 * window_y - 1.0) * view.half_height;
-    precise Real3 direction = view.left * to_left + view.up * upward + view.ahead;
-    return direction;
+    return direction_through(x, y, view);
+}
+
+// Through a place in a pixel of the tile: x right, y up, in [0, 1]^2; of any length.
+Real3 direction_within(uvec2 tile_pixel, Real2 place, View view) {
+    uvec2 pixel = unpacked(frame.tile_origin) + tile_pixel, size = unpacked(frame.image_size);
+    Real2 from_low = Real2(pixel.x, size.y - 1u - pixel.y) + place;
+    return direction_through(from_low.x / Real(size.x), from_low.y / Real(size.y), view);
 }

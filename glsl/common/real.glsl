@@ -8,6 +8,7 @@
 
 #if REAL_BITS == 64
 #define Real double
+#define Real2 dvec2
 #define Real3 dvec3
 #define Real4 dvec4
 // Half the distance from 1 to the next number.
@@ -23,6 +24,7 @@ Real4 of_two_texels(uvec4 xy, uvec4 zw) {
 }
 #else
 #define Real float
+#define Real2 vec2
 #define Real3 vec3
 #define Real4 vec4
 const Real UNIT_ROUNDOFF = 5.9604644775390625e-8;

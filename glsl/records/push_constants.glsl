@@ -12,9 +12,11 @@ struct WhittedPushConstants {
     float min_shadowed;  // of light that is no more than that, times the path's weight, half counts, in shadow or not
     uvec2 sample_place;    // in the pixel, sub-pixels from its top left
     uint samples_before;   // of each pixel, that the picture is the mean of
-    float sample_weight;   // of this one in the mean: 1 / (samples_before + 1)
+    float sample_weight;   // of this run in the mean: its samples' share
     uint tile_size;        // pixels, width | height << 16
     uint light_sphere_count; // of all lights
+    uint seed;             // of the random numbers of path tracing
+    uint samples_at_once;  // of a pixel in a run of it
 };
 layout(push_constant, std430) uniform Push { WhittedPushConstants pushed; };
 

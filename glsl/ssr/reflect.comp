@@ -18,7 +18,7 @@ layout(local_size_x_id = 5, local_size_y_id = 6) in;
 layout(binding = 0, std430) writeonly buffer Picture { vec4 picture[]; }; // as of `camera/picture.glsl`
 
 // The picture is why reflections may be wrong, in colours.
-layout(constant_id = 26) const bool SHOWS_REASONS = false;
+layout(constant_id = 27) const bool SHOWS_REASONS = false;
 
 // What came of a pixel's mirrored rays; of those that went wrong the first counts. docs/screen-space.md has the legend.
 const uint NO_MIRROR = 0u;

@@ -134,6 +134,10 @@ bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path pat
     return is_done;
 }
 
+// The brightest channel of what a weight makes of a radiance.
+Real brightest(Real weight, Real3 radiance) { return weight * largest_component(radiance); }
+Real brightest(Real3 weight, Real3 radiance) { return largest_component(weight * radiance); }
+
 // Of a ray that has come to its end: on to the next light that a shadow ray is worth, if there is one.
 //
 // A packet's rays stay together here, and read no light beyond the last, which would be undefined: as a loop within the
@@ -156,7 +160,7 @@ bool casts_shadow_ray(bool is_done, inout Path path) {
             Real3 direct = direct_radiance(path.material, path.nearest.normal, path.incident, to_light, light_distance,
                                            cosine, next);
             // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
-            bool is_faint = path.weight * largest_component(direct) <= Real(frame.min_shadowed);
+            bool is_faint = brightest(path.weight, direct) <= Real(frame.min_shadowed);
             if (HAS_SHADOWS && shines && !is_faint) {
                 is_lit = true;
                 path.light = next;

@@ -24,6 +24,8 @@ pub enum Algorithm {
     Whitted,
     /// The accurate model, but that mirrors show only what the camera sees, in `f32`.
     Ssr,
+    /// Path tracing of the accurate model, where light that comes from everywhere takes the place of ambient light.
+    Path,
     /// The accurate model in `f64` on the CPU, without Vulkan.
     Reference,
 }
@@ -39,6 +41,8 @@ pub enum Kernel {
     Whitted(Precision),
     /// `f32`.
     Ssr,
+    /// `f32` or `f64`; not every device has the latter.
+    Path(Precision),
 }
 
 /// A row of [`ALGORITHMS`].
@@ -58,8 +62,12 @@ pub struct Description {
     pub approximates: bool,
     /// Whether its rays find solids by boxes around them, and can do without.
     pub has_hierarchy: bool,
-    /// Whether a pixel may have several samples, and a picture be upscaled from a smaller one.
+    /// Whether a pixel may have several samples at fixed places, and a picture be upscaled from a smaller one.
     pub samples: bool,
+    /// Whether its pictures are estimates from random numbers: with a seed, any number of samples and a standard error.
+    pub is_statistical: bool,
+    /// Whether what a scene lacks is compiled out of it.
+    pub is_specialized: bool,
     /// Whether it draws the accurate model, and not the course work's.
     pub is_of_accurate_model: bool,
     /// Whether its pictures are those of the accurate model, to the tolerances of its precision.
@@ -68,10 +76,13 @@ pub struct Description {
     pub has_close_ups: bool,
     /// Whether table 4.1 of the course work is measured with it.
     pub is_in_fps_table: bool,
+    /// What the note's table 1.1 says of it: its rank by frame time (1: the quickest), by realism (1: the least), and
+    /// whether it is noisy (1).
+    pub table_1_1: Option<[u32; 3]>,
 }
 
 /// Every algorithm, the course work's first.
-pub static ALGORITHMS: [Description; 5] = [
+pub static ALGORITHMS: [Description; 6] = [
     Description {
         algorithm: Algorithm::Course,
         name: "course",
@@ -81,10 +92,13 @@ pub static ALGORITHMS: [Description; 5] = [
         approximates: false,
         has_hierarchy: false,
         samples: false,
+        is_statistical: false,
+        is_specialized: false,
         is_of_accurate_model: false,
         is_accurate: false,
         has_close_ups: false,
         is_in_fps_table: true,
+        table_1_1: None,
     },
     Description {
         algorithm: Algorithm::Plain,
@@ -95,10 +109,13 @@ pub static ALGORITHMS: [Description; 5] = [
         approximates: true,
         has_hierarchy: true,
         samples: false,
+        is_statistical: false,
+        is_specialized: true,
         is_of_accurate_model: true,
         is_accurate: false,
         has_close_ups: false,
         is_in_fps_table: false,
+        table_1_1: None,
     },
     Description {
         algorithm: Algorithm::Whitted,
@@ -109,10 +126,13 @@ pub static ALGORITHMS: [Description; 5] = [
         approximates: true,
         has_hierarchy: true,
         samples: true,
+        is_statistical: false,
+        is_specialized: true,
         is_of_accurate_model: true,
         is_accurate: true,
         has_close_ups: true,
         is_in_fps_table: true,
+        table_1_1: Some([2, 2, 0]),
     },
     Description {
         algorithm: Algorithm::Ssr,
@@ -123,10 +143,30 @@ pub static ALGORITHMS: [Description; 5] = [
         approximates: false,
         has_hierarchy: true,
         samples: false,
+        is_statistical: false,
+        is_specialized: true,
         is_of_accurate_model: true,
         is_accurate: false,
         has_close_ups: true,
         is_in_fps_table: false,
+        table_1_1: Some([1, 1, 0]),
+    },
+    Description {
+        algorithm: Algorithm::Path,
+        name: "path",
+        about: "Path tracing: light from everywhere in place of ambient light, by random paths",
+        precisions: &[Precision::F32, Precision::F64],
+        kernels: &[Kernel::Path(Precision::F32), Kernel::Path(Precision::F64)],
+        approximates: false,
+        has_hierarchy: true,
+        samples: false,
+        is_statistical: true,
+        is_specialized: true,
+        is_of_accurate_model: true,
+        is_accurate: false,
+        has_close_ups: true,
+        is_in_fps_table: false,
+        table_1_1: Some([3, 3, 1]),
     },
     Description {
         algorithm: Algorithm::Reference,
@@ -137,10 +177,13 @@ pub static ALGORITHMS: [Description; 5] = [
         approximates: false,
         has_hierarchy: false,
         samples: false,
+        is_statistical: false,
+        is_specialized: false,
         is_of_accurate_model: true,
         is_accurate: true,
         has_close_ups: false,
         is_in_fps_table: false,
+        table_1_1: None,
     },
 ];
 
@@ -152,7 +195,7 @@ impl Description {
 
     /// Whether its rays can be tried one by one: what a picture shows comes of them alone.
     pub fn casts_rays(&self) -> bool {
-        self.is_on_device() && !self.kernels.iter().any(|kernel| kernel.draws_whole())
+        self.is_on_device() && !self.is_statistical && !self.kernels.iter().any(|kernel| kernel.draws_whole())
     }
 
     /// Whether a precision can be asked for.
@@ -183,9 +226,19 @@ impl Algorithm {
         ALGORITHMS.iter().filter(|description| description.is_on_device()).map(|description| description.algorithm)
     }
 
+    /// Of those that a Vulkan device runs, the ones whose pictures do not depend on chance.
+    pub fn deterministic() -> impl Iterator<Item = Self> {
+        Self::on_device().filter(|algorithm| !algorithm.description().is_statistical)
+    }
+
     /// Those that table 4.1 of the course work is measured with, in the order of [`ALGORITHMS`].
     pub fn in_fps_table() -> impl Iterator<Item = Self> {
         ALGORITHMS.iter().filter(|description| description.is_in_fps_table).map(|description| description.algorithm)
+    }
+
+    /// Those of the note's table 1.1, in the order of [`ALGORITHMS`].
+    pub fn in_table_1_1() -> impl Iterator<Item = Self> {
+        ALGORITHMS.iter().filter(|description| description.table_1_1.is_some()).map(|description| description.algorithm)
     }
 
     /// The names of those that can do something, for messages: "plain and whitted".
@@ -198,7 +251,7 @@ impl Algorithm {
 
 impl ValueEnum for Algorithm {
     fn value_variants<'a>() -> &'a [Self] {
-        &[Self::Course, Self::Plain, Self::Whitted, Self::Ssr, Self::Reference]
+        &[Self::Course, Self::Plain, Self::Whitted, Self::Ssr, Self::Path, Self::Reference]
     }
 
     fn to_possible_value(&self) -> Option<PossibleValue> {
@@ -220,6 +273,7 @@ impl Kernel {
             Self::Plain => Algorithm::Plain,
             Self::Whitted(_) => Algorithm::Whitted,
             Self::Ssr => Algorithm::Ssr,
+            Self::Path(_) => Algorithm::Path,
         }
     }
 
@@ -232,7 +286,7 @@ impl Kernel {
     pub fn precision(self) -> Precision {
         match self {
             Self::Course | Self::Plain | Self::Ssr => Precision::F32,
-            Self::Whitted(precision) => precision,
+            Self::Whitted(precision) | Self::Path(precision) => precision,
         }
     }
 

@@ -6,7 +6,8 @@ use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser
 use crate::algorithm::{Algorithm, Description};
 use crate::frame::Frame;
 use crate::scene::DEPTH_LIMIT;
-use crate::settings::sampling::{MAX_SAMPLES, Sampling};
+use crate::settings::MAX_PATH_SAMPLES;
+use crate::settings::sampling::Sampling;
 
 /// Options that do not go together.
 #[derive(Debug, thiserror::Error)]
@@ -25,7 +26,7 @@ pub(super) fn parse_depth() -> RangedI64ValueParser<u32> {
 }
 
 pub(super) fn parse_samples() -> RangedI64ValueParser<u32> {
-    clap::value_parser!(u32).range(1..=i64::from(MAX_SAMPLES))
+    clap::value_parser!(u32).range(1..=i64::from(MAX_PATH_SAMPLES))
 }
 
 /// A number, or a fraction of two.
@@ -56,6 +57,12 @@ pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {
 pub(super) fn parse_error(text: &str) -> Result<f64, String> {
     let value = parse_fraction(text).filter(|value| value.is_finite() && *value >= 0.0);
     value.ok_or_else(|| "it must be a number, 0 or greater, such as 0.002 or 1/510".to_owned())
+}
+
+/// A number above 0, as a decimal or as a fraction of two; in seconds, not above what a clock counts.
+pub(super) fn parse_positive(text: &str) -> Result<f64, String> {
+    let value = parse_fraction(text).filter(|value| *value > 0.0 && *value <= 1e9);
+    value.ok_or_else(|| "it must be a number above 0 and up to 10^9, such as 0.002, 1/510 or 60".to_owned())
 }
 
 #[cfg(test)]

@@ -1,11 +1,14 @@
 //! `zerkalo render SCENE -o OUT`: one picture into a file, timed.
 
+mod paths;
+mod ssr;
+
 use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 
 use super::interrupt::Listener;
@@ -21,8 +24,10 @@ use crate::reference::{self, RenderError};
 use crate::scene::Scene;
 use crate::settings::sampling::Sampling;
 use crate::settings::{Contradiction, RenderSettings, Shading};
-use crate::tracer::{Settings, Tracer, TracerError, limits_of};
+use crate::tracer::{ErrorEstimate, Progressive, Settings, Tracer, TracerError, limits_of};
 use crate::validation::Remarked;
+use paths::PathArgs;
+use ssr::{SsrArgs, SsrShadows};
 
 /// Render a scene into a PNG (display values) or EXR (linear values) file
 #[derive(Debug, Clone, Args)]
@@ -50,19 +55,22 @@ pub struct RenderArgs {
     /// 0 is exact
     #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error, allow_hyphen_values = true)]
     pub error: f64,
-    /// Anti-aliasing by whitted: a pixel is the mean of so many rays through fixed places in it, 1 to 64
-    #[arg(long, value_name = "N", default_value = "1", value_parser = parse_samples())]
-    pub samples: u32,
+    /// Anti-aliasing by whitted: a pixel is the mean of so many rays through fixed places in it, 1 to 64 [default: 1];
+    /// by path: of so many random paths, at most, 1 to 2^30 [default: 64, or without end to --until-error or --seconds]
+    #[arg(long, value_name = "N", value_parser = parse_samples())]
+    pub samples: Option<u32>,
     /// Size of the picture that whitted traces against that of OUT, to which it is brought bilinearly: 1/4 to 1
     #[arg(long, value_name = "S", default_value = "1", value_parser = parse_scale)]
     pub scale: f64,
+    #[command(flatten)]
+    pub paths: PathArgs,
     /// How much of the light model is drawn, by whitted, plain or reference
     #[arg(long, value_enum, default_value_t)]
     pub shading: Shading,
     #[command(flatten)]
     pub ssr: SsrArgs,
     /// Draw as a file of `zerkalo trade --save-settings` says
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["algorithm", "precision", "max_depth", "error", "samples", "scale", "shading"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["algorithm", "precision", "max_depth", "error", "samples", "scale", "seed", "numbers", "shading"])]
     pub settings: Option<PathBuf>,
     #[command(flatten)]
     pub device: DeviceArgs,
@@ -74,41 +82,6 @@ pub struct RenderArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-}
-
-/// What only screen-space reflections have.
-#[derive(Debug, Clone, Args)]
-pub struct SsrArgs {
-    /// Of ssr: whether shadow rays are cast
-    #[arg(long, value_enum, default_value_t)]
-    pub ssr_shadows: SsrShadows,
-    /// Of ssr: write another picture, of why reflections may be wrong; docs/screen-space.md has its colours
-    #[arg(long, value_name = "OUT")]
-    pub ssr_reasons: Option<PathBuf>,
-}
-
-/// Whether screen-space reflections cast shadow rays.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum SsrShadows {
-    /// To every light
-    #[default]
-    Rays,
-    /// No surface hides a light
-    None,
-}
-
-impl SsrArgs {
-    /// # Errors
-    /// They are for another algorithm.
-    fn check(&self, algorithm: Algorithm) -> Result<()> {
-        let is_given = self.ssr_shadows != SsrShadows::default() || self.ssr_reasons.is_some();
-        if is_given && algorithm != Algorithm::Ssr {
-            let what =
-                format!("--ssr-shadows and --ssr-reasons are for the ssr algorithm, not for {}", algorithm.name());
-            return Err(TracerError::Refused(what).into());
-        }
-        self.ssr_reasons.iter().try_for_each(|path| Ok(Frame::check_output_path(path)?))
-    }
 }
 
 /// What `--json` prints.
@@ -127,13 +100,17 @@ struct Report<'a> {
     /// What the algorithm leaves out whatever the scene; null where it is nothing.
     note: &'a Option<String>,
     samples_per_pixel: u32,
+    /// Of pixels by path tracing, estimated; null of others, and of too few samples.
+    standard_error: Option<ErrorEstimate>,
     /// Size of the traced picture against this one.
     scale: f64,
     device: &'a str,
     driver: &'a str,
-    /// Median of `samples_ns`; null where there is none: no timestamps, or no Vulkan device.
+    /// Median of `samples_ns`, or of path tracing their sum; null where there is none: no timestamps, or no Vulkan
+    /// device.
     gpu_time_ns: Option<u64>,
-    /// GPU time of each repeat, in order; without `--repeat` of the one, cold, render.
+    /// GPU time of each repeat, in order; without `--repeat` of the one, cold, render; of path tracing, of each run over
+    /// the picture.
     samples_ns: &'a [u64],
     validation_messages: usize,
     /// What the layer said that is no fault.
@@ -146,6 +123,7 @@ struct Rendered {
     algorithm: Algorithm,
     precision: Precision,
     sampling: Sampling,
+    standard_error: Option<ErrorEstimate>,
     error_bound: f64,
     warning: Option<String>,
     note: Option<String>,
@@ -153,6 +131,8 @@ struct Rendered {
     driver: String,
     samples_ns: Vec<u64>,
     messages: Messages,
+    /// Ctrl-C ended it early, and it was wanted as far as it had come.
+    is_partial: bool,
 }
 
 /// Renders, saves, reports. Fails after saving when validation had anything to say.
@@ -166,6 +146,7 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     }
     let scene =
         if is_from_stream { args.streams.format.unwrap_or_default().read_scene()? } else { scene_named(&args.scene)? };
+    args.paths.check(args)?;
     let setting = setting(args)?;
     args.ssr.check(setting.map_or(args.algorithm, |setting| setting.algorithm))?;
     let rendered = match setting {
@@ -181,7 +162,8 @@ pub fn run(args: &RenderArgs) -> Result<()> {
         rendered.frame.save(&args.output)?;
         print_line(&told)?;
     }
-    refuse_messages(&rendered.messages)
+    refuse_messages(&rendered.messages)?;
+    if rendered.is_partial { Err(TracerError::Stopped.into()) } else { Ok(()) }
 }
 
 /// For what draws on a device; `None` for what does on the CPU.
@@ -194,8 +176,10 @@ fn setting(args: &RenderArgs) -> Result<Option<RenderSettings>> {
         precision: args.precision,
         error: args.error,
         max_depth: args.max_depth,
-        samples: args.samples,
+        samples: args.paths.samples(args.algorithm, args.samples),
         scale: args.scale,
+        seed: args.paths.seed,
+        numbers: args.paths.numbers,
         shading: args.shading,
         ..RenderSettings::default()
     };
@@ -223,25 +207,34 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Resu
     if let Some(warning) = &warning {
         eprintln!("warning: {warning}");
     }
-    let mut tracer = Tracer::new(&device, scene, &settings)?;
-    let (frame, samples_ns) = render(&mut tracer, args.repeat, &listener)?;
-    if let Some(path) = &args.ssr.ssr_reasons {
-        tracer.set_scene(scene, &Settings { shows_reasons: true, ..settings.clone() })?;
-        render(&mut tracer, None, &listener)?.0.save(path)?;
-    }
+    let mut sampling = setting.sampling();
+    let (frame, samples_ns, standard_error) = if setting.algorithm.description().is_statistical {
+        let mut tracer = Progressive::new(&device, scene, &settings)?;
+        let samples_ns = args.paths.add_runs(&mut tracer, setting.samples, &listener)?;
+        sampling.samples = tracer.samples();
+        (tracer.frame()?, samples_ns, tracer.error())
+    } else {
+        let mut tracer = Tracer::new(&device, scene, &settings)?;
+        let (frame, samples_ns) = render(&mut tracer, args.repeat, &listener)?;
+        if let Some(path) = &args.ssr.ssr_reasons {
+            tracer.set_scene(scene, &Settings { shows_reasons: true, ..settings.clone() })?;
+            render(&mut tracer, None, &listener)?.0.save(path)?;
+        }
+        (frame, samples_ns, None)
+    };
     // Destroyed before the messages are counted: the layers check that too.
-    drop((tracer, device));
-    if listener.stop_requested() {
+    drop(device);
+    if listener.stop_requested() && !args.paths.keep_partial {
         return Err(TracerError::Stopped.into());
     }
     let precision = settings.kernel.precision();
     let algorithm = setting.algorithm;
-    let sampling = setting.sampling();
     Ok(Rendered {
         frame,
         algorithm,
         precision,
         sampling,
+        standard_error,
         error_bound,
         warning,
         note,
@@ -249,6 +242,7 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Resu
         driver,
         samples_ns,
         messages,
+        is_partial: listener.stop_requested(),
     })
 }
 
@@ -279,6 +273,7 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
         algorithm: Algorithm::Reference,
         precision: Precision::F64,
         sampling: Sampling::PLAIN,
+        standard_error: None,
         error_bound: 0.0,
         warning: None,
         note: None,
@@ -286,6 +281,7 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
         driver,
         samples_ns: Vec::new(),
         messages: Messages::default(),
+        is_partial: false,
     })
 }
 
@@ -326,8 +322,11 @@ fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
         messages,
         ..
     } = rendered;
+    let is_statistical = algorithm.description().is_statistical;
     let Sampling { samples, scale } = *sampling;
-    let gpu_time_ns = median(samples_ns);
+    // Of path tracing each is a part of the picture.
+    let gpu_time_ns =
+        if is_statistical && !samples_ns.is_empty() { Some(samples_ns.iter().sum()) } else { median(samples_ns) };
     let (width, height) = args.size;
     if args.json {
         return Ok(serde_json::to_string(&Report {
@@ -339,6 +338,7 @@ fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
             warning,
             note,
             samples_per_pixel: samples,
+            standard_error: rendered.standard_error,
             scale,
             device,
             driver,
@@ -357,9 +357,12 @@ fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
     let output =
         if args.output.as_os_str() == STREAM { "standard output".into() } else { args.output.display().to_string() };
     let bound = if *error_bound > 0.0 { format!(", at most {error_bound:.3e} off") } else { String::new() };
+    let standard_error = rendered.standard_error.map_or_else(String::new, |error| {
+        format!(", standard error {:.1e} (of 99 % of the pixels at most {:.1e})", error.rms, error.of_99_percent)
+    });
     let samples = if samples > 1 { format!(", {samples} samples a pixel") } else { String::new() };
     let scale = if scale < 1.0 { format!(", traced at {scale:.4} of that") } else { String::new() };
     let picture = format!("{width}x{height}{scale}{samples}");
     let note = note.as_ref().map(|note| format!("\n{note}")).unwrap_or_default();
-    Ok(format!("wrote {} ({picture}, {device}, {time}{of}{bound}){note}", output.escape_debug()))
+    Ok(format!("wrote {} ({picture}, {device}, {time}{of}{bound}{standard_error}){note}", output.escape_debug()))
 }

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 /// Left as the front end writes them, without the performance passes: those turn each early return into a one-trip loop
 /// before inlining it. Measured on lavapipe, which inlines without that: the course's kernel was 30 % slower, the
 /// accurate one 12 %.
-pub const AS_WRITTEN: [&str; 5] = ["course", "probe_course_rays", "ssr_light", "ssr_reflect", "whitted"];
+pub const AS_WRITTEN: [&str; 6] = ["course", "path", "probe_course_rays", "ssr_light", "ssr_reflect", "whitted"];
 
 /// One build of a kernel's source: what is appended to its name, and macros with their values.
 #[derive(Clone, Copy)]
@@ -19,7 +19,7 @@ pub struct Variant {
     pub asks_for_float_controls: bool,
 }
 
-/// A kernel of `glsl/whitted`.
+/// A kernel of the accurate model.
 const fn whitted(suffix: &'static str, macros: &'static [(&'static str, &'static str)]) -> Variant {
     Variant { suffix, macros, asks_for_float_controls: true }
 }
@@ -46,6 +46,9 @@ const WITH_PACKETS: [Variant; 6] = [
     whitted("_plain_packets", &[("REAL_BITS", "32"), ("COMPENSATION", "0"), ("PACKETS", "1")]),
 ];
 
+/// The precisions, and each once more for devices whose invocations come by eights.
+const PRECISIONS_WITH_PACKETS: [Variant; 4] = [PRECISIONS[0], PRECISIONS[1], WITH_PACKETS[3], WITH_PACKETS[4]];
+
 /// In `f32`, for whichever devices.
 const IN_F32: [Variant; 2] = [
     whitted("", &[("REAL_BITS", "32"), ("COMPENSATION", "1"), ("PACKETS", "0")]),
@@ -59,10 +62,11 @@ const IN_F32_ALONE: [Variant; 1] = [IN_F32[0]];
 pub fn variants(name: &str) -> &'static [Variant] {
     match name {
         "whitted" => &WITH_PACKETS,
+        "path" => &PRECISIONS_WITH_PACKETS,
         "ssr_light" => &IN_F32,
         "ssr_reflect" => &IN_F32_ALONE,
         "probe_rays" => &WITH_PLAIN,
-        "probe_exact" => &PRECISIONS,
+        "probe_exact" | "probe_path_numbers" => &PRECISIONS,
         _ => &[AS_IT_STANDS],
     }
 }

@@ -6,6 +6,7 @@ use super::solids::is_rotated;
 use super::{LightFeatures, Media, Plan, Structure};
 use crate::algorithm::Precision;
 use crate::scene::{BoundingSphere, Primitive, SceneSpace, SolidKind};
+use crate::settings::Numbers;
 
 /// What the accurate kernel is compiled for, apart from its precision and its workgroup: its specialization constants.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -36,6 +37,8 @@ pub struct Features {
     pub light: LightFeatures,
     /// Rays that may wait while a path goes on by another, at most; 1 where none does.
     pub pending: u32,
+    /// The random numbers of path tracing know nothing of each other.
+    pub independent_numbers: bool,
 }
 
 /// The solids that the kernel sees of a scene.
@@ -92,6 +95,7 @@ impl Plan {
                 media: self.light_model.media.choice,
             },
             pending: most_pending(self.light_model.media.choice, self.generations.choice),
+            independent_numbers: self.settings.numbers == Numbers::Independent,
         }
     }
 }

@@ -15,6 +15,7 @@ mod arrays;
 mod budget;
 mod ceiling;
 mod features;
+mod generations;
 mod lengths;
 mod light_model;
 mod light_spheres;
@@ -53,6 +54,7 @@ use crate::settings::{Contradiction, RenderSettings};
 use arrays::check_arrays;
 use budget::{Spent, Transport, spend};
 use features::Kept;
+use generations::{approximated_generations, energy_gain, generations};
 use lengths::Lengths;
 use solids::is_lone_and_seen_from_outside;
 pub(crate) use solids::is_rotated;
@@ -164,6 +166,9 @@ pub struct Plan {
     pub approximations: Approximations,
     /// What that can change; its total is at most [`RenderSettings::error`].
     pub bounds: Bounds,
+    /// Where path tracing would draw light without end: the first primitive that sends back more than it gets, by its
+    /// index, and how many times as much.
+    pub energy_gain: Option<(usize, f64)>,
 }
 
 impl Plan {
@@ -218,7 +223,7 @@ impl Plan {
         let light_spheres = light_spheres::decide(scene, size);
         let highlights = approximated_highlights(highlights, &spent);
         let light_model = LightModel::decide(scene, light_features, generations.choice);
-        let approximations = if row.approximates {
+        let approximations = if row.is_specialized {
             Approximations {
                 light_spheres: light_spheres.choice > 0,
                 lights: is_lit,
@@ -246,11 +251,12 @@ impl Plan {
             rounding,
             structures: Structure::decide(counts, settings),
             workgroup: Decision { choice: WORKGROUP, reason: Reason::SquareWorkgroup },
-            pixels: traversal_cost::decide(scene, generations.choice, limits),
+            pixels: traversal_cost::decide(scene, kernel, generations.choice, limits),
             tile_side: tiling::decide(scene, generations.choice, limits),
             generations,
             approximations,
             bounds,
+            energy_gain: if row.is_statistical { energy_gain(scene) } else { None },
         })
     }
 
@@ -270,8 +276,22 @@ impl Plan {
         self
     }
 
-    /// That the picture will or may be wrong, and why, in one line: where `f32` is what there is or was asked for.
+    /// That the picture will or may be wrong, and why, in one line: where `f32` is what there is or was asked for, or
+    /// where paths gain light at a surface.
     pub fn warning(&self) -> Option<String> {
+        self.rounding_warning().or_else(|| self.energy_warning())
+    }
+
+    fn energy_warning(&self) -> Option<String> {
+        let (primitive, gain) = self.energy_gain?;
+        Some(format!(
+            "primitive {primitive} sends back {} times the light that it gets (diffuse * its brightest channel + \
+             reflection + transmission): the picture grows brighter with every generation",
+            reason::Short(gain)
+        ))
+    }
+
+    fn rounding_warning(&self) -> Option<String> {
         if self.precision.choice != Precision::F32 {
             return None;
         }
@@ -345,41 +365,4 @@ fn approximated_highlights(exact: Decision<bool>, spent: &Spent) -> Decision<boo
         return Decision { choice: false, reason: Reason::HighlightsAreFaint { bound: spent.bounds.highlights } };
     }
     exact
-}
-
-/// Without an error.
-fn generations(scene: &Scene, settings: &RenderSettings, transport: &Transport, is_lone: bool) -> Decision<u32> {
-    let asked = match settings.max_depth {
-        Some(depth) => Decision { choice: depth, reason: Reason::Asked },
-        None => Decision { choice: scene.max_depth, reason: Reason::SceneSays },
-    };
-    if !settings.algorithm.description().approximates {
-        return asked;
-    }
-    let (choice, reason) = if scene.primitives.is_empty() {
-        (1, Reason::NoSolids)
-    } else if transport.largest_gain() == 0.0 {
-        (1, if transport.has_specular() { Reason::NothingReflects } else { Reason::NothingIsSpecular })
-    } else if transport.ceiling(asked.choice) == 0.0 || (is_lone && scene.background == DVec3::ZERO) {
-        (1, Reason::ReflectionsAreBlack)
-    } else if is_lone {
-        (2, Reason::LoneSolidMirrorsBackground)
-    } else {
-        return asked;
-    };
-    if choice < asked.choice { Decision { choice, reason } } else { asked }
-}
-
-/// The generations that the allowed error leaves.
-fn approximated_generations(exact: Decision<u32>, spent: &Spent) -> Decision<u32> {
-    let Spent { approximations, bounds, generations } = *spent;
-    if approximations.min_throughput == 0.0 {
-        return exact;
-    }
-    let reason = Reason::PathsFade {
-        min_throughput: approximations.min_throughput,
-        of: exact.choice,
-        bound: bounds.generations,
-    };
-    Decision { choice: generations, reason }
 }

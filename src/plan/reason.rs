@@ -15,6 +15,8 @@ pub enum Reason {
     NoHierarchy,
     /// Generations: nothing spares any of the scene's.
     SceneSays,
+    /// Pixels per invocation: it traces several samples of one pixel instead.
+    SamplesInstead,
     /// Lights and generations: the scene has no primitives.
     NoSolids,
     /// Box rotation: the kernel sees no box.
@@ -219,6 +221,7 @@ impl fmt::Display for Reason {
             Self::LightsMatter { lights, dark: 0 } => write!(f, "{lights} in the scene"),
             Self::LightsMatter { lights, dark } => write!(f, "{lights} in the scene, of which {dark} brighten nothing"),
             Self::NothingIsLit => write!(f, "nothing is lit"),
+            Self::SamplesInstead => write!(f, "an invocation traces several samples of a pixel, one after another"),
             Self::LoneSolidShadowsNothing => {
                 write!(f, "one convex solid, seen from outside, casts no shadow on itself but where it turns away")
             }

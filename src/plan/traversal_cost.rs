@@ -2,6 +2,7 @@
 
 use super::solids::is_rotated;
 use super::{Decision, Limits, Reason, Structure};
+use crate::algorithm::Kernel;
 use crate::scene::{BoundingSphere, Primitive, Scene, SolidKind};
 
 /// Iterations of all its loops together that an invocation may take on a CPU driver. Mesa's leave a loop after 65535
@@ -76,7 +77,10 @@ fn most_in_one_place(primitives: &[Primitive]) -> usize {
     spheres.iter().map(|a| spheres.iter().filter(|b| touch(a, b)).count()).max().unwrap_or_default()
 }
 
-pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decision<u32> {
+pub(super) fn decide(scene: &Scene, kernel: Kernel, generations: u32, limits: &Limits) -> Decision<u32> {
+    if kernel.description().is_statistical {
+        return Decision { choice: 1, reason: Reason::SamplesInstead };
+    }
     if !limits.packets {
         return Decision { choice: 1, reason: Reason::NoPackets };
     }

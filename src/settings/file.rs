@@ -8,7 +8,7 @@ use serde::Deserialize;
 use thiserror::Error;
 use toml::Spanned;
 
-use super::{RenderSettings, Shading};
+use super::{Numbers, RenderSettings, Shading};
 use crate::algorithm::{Algorithm, Precision};
 use crate::whole_file::WholeFile;
 
@@ -65,6 +65,8 @@ struct Fields {
     boxes: Option<Spanned<bool>>,
     samples: Option<Spanned<u32>>,
     scale: Option<Spanned<f64>>,
+    seed: Option<Spanned<u32>>,
+    numbers: Option<Spanned<Numbers>>,
     shading: Option<Spanned<Shading>>,
 }
 
@@ -92,7 +94,7 @@ impl RenderSettings {
             let offset = error.span().map_or(0, |span| span.start);
             (line(offset), in_one_line(source, &error, offset))
         })?;
-        let Fields { algorithm, precision, error, max_depth, boxes, samples, scale, shading } = fields;
+        let Fields { algorithm, precision, error, max_depth, boxes, samples, scale, seed, numbers, shading } = fields;
         let places = [
             ("precision", precision.as_ref().map(Spanned::span)),
             ("error", error.as_ref().map(Spanned::span)),
@@ -100,6 +102,8 @@ impl RenderSettings {
             ("boxes", boxes.as_ref().map(Spanned::span)),
             ("samples", samples.as_ref().map(Spanned::span)),
             ("scale", scale.as_ref().map(Spanned::span)),
+            ("seed", seed.as_ref().map(Spanned::span)),
+            ("numbers", numbers.as_ref().map(Spanned::span)),
             ("shading", shading.as_ref().map(Spanned::span)),
         ];
         let default = Self::default();
@@ -119,6 +123,8 @@ impl RenderSettings {
             boxes: boxes.map_or(default.boxes, Spanned::into_inner),
             samples: samples.map_or(default.samples, Spanned::into_inner),
             scale: scale.map_or(default.scale, Spanned::into_inner),
+            seed: seed.map_or(default.seed, Spanned::into_inner),
+            numbers: numbers.map_or(default.numbers, Spanned::into_inner),
             shading: shading.map_or(default.shading, Spanned::into_inner),
         };
         setting.check().map_err(|contradiction| {
@@ -165,7 +171,7 @@ mod tests {
     #[test]
     fn a_setting_is_read_as_it_was_written() {
         let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("fast.toml");
+        let file = folder.path().join("fast.toml");
         let cut = RenderSettings {
             algorithm: Algorithm::Whitted,
             precision: Some(Precision::F64),
@@ -175,15 +181,24 @@ mod tests {
             samples: 4,
             scale: 0.5,
             shading: Shading::Phong,
+            ..RenderSettings::default()
+        };
+        let path = RenderSettings {
+            algorithm: Algorithm::Path,
+            samples: 1 << 20,
+            seed: 7,
+            numbers: Numbers::Independent,
+            ..RenderSettings::default()
         };
         for setting in [
             cut,
+            path,
             RenderSettings::default(),
             RenderSettings { algorithm: Algorithm::Course, ..RenderSettings::default() },
         ] {
-            setting.save(&path, "two\nlines").unwrap();
-            assert_eq!(RenderSettings::load(&path).unwrap(), setting);
-            assert!(fs::read_to_string(&path).unwrap().starts_with("# two\n# lines\nkernel = "));
+            setting.save(&file, "two\nlines").unwrap();
+            assert_eq!(RenderSettings::load(&file).unwrap(), setting);
+            assert!(fs::read_to_string(&file).unwrap().starts_with("# two\n# lines\nkernel = "));
         }
         assert_eq!(RenderSettings::from_toml(""), Ok(RenderSettings::default()));
         assert_eq!(RenderSettings::from_toml("algorithm = \"plain\""), RenderSettings::from_toml("kernel = \"plain\""));
@@ -203,12 +218,14 @@ mod tests {
             (
                 "precision = \"f64\"\nkernel = \"plain\"",
                 1,
-                "the plain algorithm calculates in f32 only; whitted can in f64",
+                "the plain algorithm calculates in f32 only; whitted and path can in f64",
             ),
             ("error = nan", 1, "error = NaN"),
             ("error = 1\nerror = 2", 2, "duplicate key"),
             ("boxes = 1", 1, "boxes: "),
             ("error = 0.1\nsamples = 65", 2, "1 to 64 samples, not 65"),
+            ("seed = 1", 1, "seed is for the path algorithm, not for whitted"),
+            ("kernel = \"path\"\nsamples = 0", 2, "1 to 1073741824 samples, not 0"),
             ("scale = 0.5\nkernel = \"plain\"", 1, "scale is for the whitted algorithm"),
             ("kernel", 1, ""),
         ] {

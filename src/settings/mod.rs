@@ -1,6 +1,7 @@
 //! Everything that trades time for accuracy, in a user's words: one setting for any scene, kept in a file.
 
 mod file;
+mod numbers;
 pub mod sampling;
 mod shading;
 
@@ -9,11 +10,15 @@ use std::fmt;
 use serde::Serialize;
 
 pub use file::SettingsError;
+pub use numbers::Numbers;
 use sampling::Sampling;
 pub use shading::Shading;
 
 use crate::algorithm::{Algorithm, Description, Precision};
 use crate::scene::DEPTH_LIMIT;
+
+/// Most samples of a pixel by path tracing, whose index has 32 bits.
+pub const MAX_PATH_SAMPLES: u32 = 1 << 30;
 
 /// How a picture is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -33,23 +38,33 @@ pub struct RenderSettings {
     pub samples: u32,
     /// Size of the traced picture against the one asked for.
     pub scale: f64,
+    /// Of path tracing's random numbers: the same one gives the same picture.
+    pub seed: u32,
+    /// What kind of random numbers path tracing takes.
+    pub numbers: Numbers,
     /// Which part of the light model; plans and tracers are given the scene that it is [applied](Shading::applied) to.
     pub shading: Shading,
 }
 
-impl Default for RenderSettings {
+impl RenderSettings {
     /// The accurate kernel, leaving out nothing.
+    pub const DEFAULT: Self = Self {
+        algorithm: Algorithm::Whitted,
+        precision: None,
+        error: 0.0,
+        max_depth: None,
+        boxes: true,
+        samples: 1,
+        scale: 1.0,
+        seed: 0,
+        numbers: Numbers::Sobol,
+        shading: Shading::Whitted,
+    };
+}
+
+impl Default for RenderSettings {
     fn default() -> Self {
-        Self {
-            algorithm: Algorithm::Whitted,
-            precision: None,
-            error: 0.0,
-            max_depth: None,
-            boxes: true,
-            samples: 1,
-            scale: 1.0,
-            shading: Shading::Whitted,
-        }
+        Self::DEFAULT
     }
 }
 
@@ -64,7 +79,8 @@ pub struct Contradiction {
 }
 
 impl RenderSettings {
-    /// `samples` and `scale` together; whether they are possible is for [`RenderSettings::check`].
+    /// `samples` and `scale` together; whether they are possible is for [`RenderSettings::check`]. Not of path tracing,
+    /// whose samples are of another kind.
     pub fn sampling(&self) -> Sampling {
         Sampling { samples: self.samples, scale: self.scale }
     }
@@ -72,7 +88,7 @@ impl RenderSettings {
     /// # Errors
     /// What no kernel can do.
     pub fn check(&self) -> Result<(), Contradiction> {
-        let &Self { algorithm, precision, error, max_depth, boxes, samples, scale, shading } = self;
+        let &Self { algorithm, precision, error, max_depth, boxes, samples, scale, seed, numbers, shading } = self;
         let &Description { name, precisions, .. } = algorithm.description();
         let refuse = |field, what: String| Err(Contradiction { field, what });
         if !(error.is_finite() && error >= 0.0) {
@@ -101,9 +117,21 @@ impl RenderSettings {
             let what = format!("shading = {}: the {name} algorithm has a light model of its own", shading.name());
             return refuse("shading", what);
         }
+        let row = algorithm.description();
+        for (field, is_asked) in [("seed", seed != 0), ("numbers", numbers != Numbers::Sobol)] {
+            if is_asked && !row.is_statistical {
+                let others = Algorithm::names(|other| other.is_statistical);
+                return refuse(field, format!("{field} is for the {others} algorithm, not for {name}"));
+            }
+        }
+        if row.is_statistical && !(1..=MAX_PATH_SAMPLES).contains(&samples) {
+            let what = format!("a pixel of the {name} algorithm has 1 to {MAX_PATH_SAMPLES} samples, not {samples}");
+            return refuse("samples", what);
+        }
         // One after the other, so that the field at fault is known.
         let plain = Sampling::PLAIN;
-        for (field, sampling) in [("samples", Sampling { samples, ..plain }), ("scale", Sampling { scale, ..plain })] {
+        let of_places = Sampling { samples: if row.is_statistical { 1 } else { samples }, ..plain };
+        for (field, sampling) in [("samples", of_places), ("scale", Sampling { scale, ..plain })] {
             if let Err(error) = sampling.check() {
                 return refuse(field, error);
             }
@@ -119,7 +147,7 @@ impl RenderSettings {
 impl fmt::Display for RenderSettings {
     /// What differs from an exact picture by default, in a few words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let &Self { algorithm, precision, error, max_depth, boxes, samples, scale, shading } = self;
+        let &Self { algorithm, precision, error, max_depth, boxes, samples, scale, seed, numbers, shading } = self;
         write!(f, "{}", algorithm.name())?;
         if let Some(precision) = precision.filter(|_| algorithm.description().has_precisions()) {
             write!(f, " {}", precision.name())?;
@@ -140,6 +168,12 @@ impl fmt::Display for RenderSettings {
         }
         if scale < 1.0 {
             write!(f, ", scale {}", three_digits(scale))?;
+        }
+        if seed != 0 {
+            write!(f, ", seed {seed}")?;
+        }
+        if numbers == Numbers::Independent {
+            write!(f, ", independent numbers")?;
         }
         if boxes { Ok(()) } else { write!(f, ", no boxes") }
     }

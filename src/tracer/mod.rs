@@ -6,6 +6,7 @@ pub mod course;
 mod parts;
 mod pixels;
 pub mod probe;
+mod progressive;
 mod renderer;
 mod settings;
 mod ssr;
@@ -20,6 +21,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 pub use canvas::Canvas;
+pub use progressive::{ErrorEstimate, Progressive};
 pub use settings::Settings;
 
 pub use crate::algorithm::{Kernel, Precision};
@@ -27,7 +29,7 @@ use crate::frame::{Frame, FrameError};
 use crate::gpu::{BindingSet, Builds, Commands, Device, DeviceDescription, GpuError, Recorder, Texel, Timer, Use};
 use crate::plan::Limits;
 use crate::scene::Scene;
-use renderer::{MadeFor, Renderer, Sample, renderer};
+use renderer::{MadeFor, Renderer, Run, Sample, renderer};
 use target::Target;
 use tiles::Tile;
 
@@ -207,7 +209,8 @@ impl Tracer {
         let pixels: &[[f32; 4]] = bytemuck::cast_slice(self.target.pixels.bytes(&idle)?);
         let written = &pixels[..(tile.width * tile.height) as usize];
         // Alpha counts the samples that came to their end.
-        let given_up = written.iter().filter(|[.., alpha]| *alpha != self.samples as f32).count();
+        let all = self.renderer.ended_samples().unwrap_or(self.samples) as f32;
+        let given_up = written.iter().filter(|[.., alpha]| *alpha != all).count();
         if given_up > 0 {
             let device = self.device.description().name.clone();
             return Err(TracerError::LoopLimitReached { device, pixels: given_up });
@@ -224,6 +227,11 @@ impl Tracer {
     pub fn draw_remainder(&mut self, remainder: bool) {
         assert!(self.samples == 1 && self.target.upscaling.is_none(), "only of one sample a pixel at scale 1");
         self.renderer.write_remainder(remainder);
+    }
+
+    /// Which samples of each pixel [`Tracer::render`] draws the mean of by path tracing; others draw what they did.
+    fn set_run(&mut self, run: Run) {
+        self.renderer.set_run(run);
     }
 
     /// Linear RGB, row by row from the top: of the `f64` kernel good to 48 bits, the colours and what they lose.

@@ -94,7 +94,7 @@ impl Probe {
                     constants: &[],
                 },
             )?,
-            Kernel::Plain | Kernel::Ssr | Kernel::Whitted(_) => {
+            Kernel::Plain | Kernel::Ssr | Kernel::Whitted(_) | Kernel::Path(_) => {
                 let precision = kernel.precision();
                 check_precision(device, precision)?;
                 let features = Features { kinds: [true; 4], ..Features::default() };
@@ -103,8 +103,10 @@ impl Probe {
                 bindings.push(BindingKind::Storage);
                 let description = PipelineDescription {
                     shader: match kernel {
-                        Kernel::Whitted(Precision::F64) => &shaders::PROBE_RAYS_F64,
-                        Kernel::Ssr | Kernel::Whitted(Precision::F32) => &shaders::PROBE_RAYS_F32,
+                        Kernel::Whitted(Precision::F64) | Kernel::Path(Precision::F64) => &shaders::PROBE_RAYS_F64,
+                        Kernel::Ssr | Kernel::Whitted(Precision::F32) | Kernel::Path(Precision::F32) => {
+                            &shaders::PROBE_RAYS_F32
+                        }
                         Kernel::Plain | Kernel::Course => &shaders::PROBE_RAYS_PLAIN,
                     },
                     bindings: &bindings,
@@ -124,7 +126,7 @@ impl Probe {
     pub fn cast(&self, solids: &[Solid], rays: &[ProbeRay]) -> Result<Vec<Option<ProbeHit>>, TracerError> {
         match self.kernel {
             Kernel::Course => self.cast_by_course(solids, rays),
-            Kernel::Plain | Kernel::Ssr | Kernel::Whitted(_) => self.cast_by_whitted(solids, rays),
+            Kernel::Plain | Kernel::Ssr | Kernel::Whitted(_) | Kernel::Path(_) => self.cast_by_whitted(solids, rays),
         }
     }
 
@@ -158,6 +160,9 @@ impl Probe {
             sample_weight: 1.0,
             tile_size: 0,
             light_sphere_count: 0,
+            seed: 0,
+            samples_at_once: 1,
+            padding: [0; 2],
         };
         let scene = upload_scene(&self.device, &records, precision)?;
         let bytes = precision.bytes(cast_slice(&rows));

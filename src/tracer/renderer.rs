@@ -55,8 +55,16 @@ pub(super) trait Algorithm {
 
 /// What a driver asks of a state.
 pub(super) trait State: PartialEq {
-    /// Samples of each pixel.
+    /// Runs over each pixel, of one sample or, by path tracing, of several.
     fn samples(&self) -> u32;
+
+    /// Samples of each pixel that the kernel counts after these runs.
+    fn ended_samples(&self) -> u32 {
+        self.samples()
+    }
+
+    /// Which samples path tracing takes from now on; nothing to others.
+    fn set_run(&mut self, _run: Run) {}
 
     /// Linear RGB.
     fn background(&self) -> [f32; 3];
@@ -67,6 +75,13 @@ pub(super) trait State: PartialEq {
     }
 
     fn write_remainder(&mut self, _is_remainder: bool) {}
+}
+
+/// Samples of each pixel that path tracing takes at once.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Run {
+    pub first_sample: u32,
+    pub samples: u32,
 }
 
 /// One sample of each pixel of some parts of a tile.
@@ -154,6 +169,10 @@ pub(super) trait Renderer {
     fn record(&self, recorder: &mut Recorder, set: &Arc<BindingSet>, sample: Sample);
     /// See [`Algorithm::trace_one_by_one`].
     fn trace_one_by_one(&mut self) -> Result<bool, GpuError>;
+    /// See [`State::ended_samples`]; `None` without a scene.
+    fn ended_samples(&self) -> Option<u32>;
+    /// See [`State::set_run`], of the scene taken up.
+    fn set_run(&mut self, run: Run);
     /// See [`State::has_remainder`].
     fn has_remainder(&self) -> bool;
     /// See [`State::write_remainder`], of the scene taken up.
@@ -173,7 +192,9 @@ pub(super) fn renderer(
     Ok(match kernel {
         Kernel::Course => staged(CourseRenderer::new(device, builds, made_for)),
         Kernel::Ssr => staged(SsrRenderer::new(device, builds, made_for)),
-        Kernel::Plain | Kernel::Whitted(_) => staged(WhittedRenderer::new(device, kernel, builds, made_for)),
+        Kernel::Plain | Kernel::Whitted(_) | Kernel::Path(_) => {
+            staged(WhittedRenderer::new(device, kernel, builds, made_for))
+        }
     })
 }
 
@@ -237,6 +258,16 @@ impl<A: Algorithm> Renderer for Staged<A> {
 
     fn trace_one_by_one(&mut self) -> Result<bool, GpuError> {
         self.algorithm.trace_one_by_one()
+    }
+
+    fn ended_samples(&self) -> Option<u32> {
+        self.current.as_ref().map(State::ended_samples)
+    }
+
+    fn set_run(&mut self, run: Run) {
+        if let Some(state) = &mut self.current {
+            state.set_run(run);
+        }
     }
 
     fn has_remainder(&self) -> bool {

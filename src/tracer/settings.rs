@@ -3,6 +3,7 @@
 use crate::algorithm::Kernel;
 use crate::plan::{Approximations, Plan, WORKGROUP};
 use crate::scene::Scene;
+use crate::settings::Numbers;
 use crate::settings::sampling::Sampling;
 
 /// How to render, apart from the scene.
@@ -36,6 +37,12 @@ pub struct Settings {
     /// Size of the picture that is traced against the one asked for, to which it is brought by bilinear interpolation;
     /// 1/4 to 1. The course kernel takes 1.
     pub scale: f64,
+    /// Of path tracing's random numbers.
+    pub seed: u32,
+    /// Samples of each pixel that path tracing takes in one run; see [`Progressive`](super::Progressive).
+    pub samples_at_once: u32,
+    /// Random numbers that know nothing of each other.
+    pub independent_numbers: bool,
     /// By screen-space reflections: in place of the picture, why its reflections may be wrong, in colours.
     pub shows_reasons: bool,
 }
@@ -55,6 +62,9 @@ impl Settings {
             pixels: None,
             samples: 1,
             scale: 1.0,
+            seed: 0,
+            samples_at_once: 1,
+            independent_numbers: false,
             shows_reasons: false,
         }
     }
@@ -67,7 +77,10 @@ impl Settings {
             max_tile_side: plan.tile_side.choice,
             workgroup: plan.workgroup.choice,
             kernel: plan.kernel,
-            samples: plan.settings.samples,
+            // Those of path tracing come run by run.
+            samples: if plan.kernel.description().is_statistical { 1 } else { plan.settings.samples },
+            seed: plan.settings.seed,
+            independent_numbers: plan.settings.numbers == Numbers::Independent,
             scale: plan.settings.scale,
             approximations: plan.approximations,
             without_boxes: plan.is_without_boxes(),

@@ -67,7 +67,7 @@ mod tests {
             let kernel = OwnKernel::try_from(name.to_owned()).unwrap();
             assert_eq!(String::from(kernel), name);
         }
-        assert_eq!(OwnKernel::all().count(), names.len() + 2, "and those that the window does not offer");
+        assert_eq!(OwnKernel::all().count(), names.len() + 5, "and those that the window does not offer");
         assert!(OwnKernel::try_from("course-f32".to_owned()).is_err());
     }
 }

@@ -191,7 +191,7 @@ impl GroupWords {
                 Some([self.kernel_accurate_f64, self.kernel_accurate_f64_hint])
             }
             (Algorithm::Reference, _) => Some([self.kernel_reference, self.kernel_reference_hint]),
-            (Algorithm::Plain | Algorithm::Ssr, _) => None,
+            (Algorithm::Plain | Algorithm::Ssr | Algorithm::Path, _) => None,
         }
     }
 }

@@ -23,6 +23,8 @@ mod error_budget;
 mod goldens;
 mod hierarchy;
 mod light_model;
+mod path_numbers;
+mod path_tracing;
 mod record_layout;
 mod rendering;
 mod right_by_default;

@@ -36,7 +36,7 @@ impl Axes {
         errors.sort_by(f64::total_cmp);
         errors.dedup();
         Self {
-            algorithms: Algorithm::on_device().collect(),
+            algorithms: Algorithm::deterministic().collect(),
             errors,
             shading: Shading::Whitted,
             generations: vec![1, 2, 3, 4, 6, 8, 12, 16, 24, 32],
@@ -74,16 +74,7 @@ pub struct Sweep {
     pub left_out: Vec<LeftOut>,
 }
 
-const BASELINE: RenderSettings = RenderSettings {
-    algorithm: Algorithm::Whitted,
-    precision: Some(Precision::F32),
-    error: 0.0,
-    max_depth: None,
-    boxes: true,
-    samples: 1,
-    scale: 1.0,
-    shading: Shading::Whitted,
-};
+const BASELINE: RenderSettings = RenderSettings { precision: Some(Precision::F32), ..RenderSettings::DEFAULT };
 
 impl Sweep {
     /// For a scene at so many pixels. Where settings come to the same, the first one stands for all: the exact one, or

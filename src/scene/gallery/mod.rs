@@ -7,6 +7,7 @@
 mod families;
 mod figures;
 mod glass;
+mod lights;
 mod showcase;
 
 use std::path::Path;
@@ -76,7 +77,7 @@ fn maker(name: &str) -> Option<Maker> {
 }
 
 fn makers() -> Vec<(Entry, Maker)> {
-    let single: [(&str, MakeScene, &str, &str); 12] = [
+    let single: [(&str, MakeScene, &str, &str); 15] = [
         ("showcase", showcase::scene, "the four solids among mirrors", "четыре тела среди зеркал"),
         (
             "glass",
@@ -85,6 +86,14 @@ fn makers() -> Vec<(Entry, Maker)> {
             "четыре стеклянных тела перед цветными плитами",
         ),
         ("fading", glass::fading, "equation 1.16: a lamp that fades", "уравнение 1.16: ослабевающий источник"),
+        ("room", lights::room, "coloured walls that shine on each other", "цветные стены, освещающие друг друга"),
+        (
+            "behind",
+            lights::behind,
+            "figure 1.7: a mirror shows what the camera does not see",
+            "рисунок 1.7: в зеркале то, чего не видит наблюдатель",
+        ),
+        ("matt", lights::matt_still_life, "dark matt solids under a sky", "тёмные матовые тела под небом"),
         ("start", figures::start, "the course program as it starts", "начальное состояние программы"),
         ("sphere", figures::sphere, "a sphere", "сфера"),
         ("box", figures::rotated_box, "a turned cube", "повёрнутый куб"),

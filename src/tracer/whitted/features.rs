@@ -27,10 +27,12 @@ impl Features {
             pixels: 1,
             light: LightFeatures { media, ..records.light },
             pending: most_pending(media, max_depth),
+            independent_numbers: false,
         }
     }
 
-    /// The specialization constants of `glsl/whitted.comp` and what it includes, in the order of their numbers.
+    /// The specialization constants of `glsl/whitted.comp`, `glsl/path.comp` and what they include, in the order of
+    /// their numbers.
     ///
     /// # Errors
     /// The device fails when its arithmetic is tested.
@@ -39,7 +41,7 @@ impl Features {
         device: &Arc<Device>,
         precision: Precision,
         [width, height]: [u32; 2],
-    ) -> Result<[u32; 26], GpuError> {
+    ) -> Result<[u32; 27], GpuError> {
         let float_width = match precision {
             Precision::F32 => FloatWidth::F32,
             Precision::F64 => FloatWidth::F64,
@@ -76,6 +78,7 @@ impl Features {
             u32::from(light.ambient_light),
             light.media as u32,
             pending,
+            u32::from(self.independent_numbers),
         ])
     }
 }

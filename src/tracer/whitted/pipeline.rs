@@ -42,6 +42,10 @@ pub(super) fn shader_of(device: &Device, kernel: Kernel, workgroup: [u32; 2]) ->
         (Kernel::Whitted(Precision::F64), true) => &shaders::WHITTED_F64_PACKETS,
         (Kernel::Whitted(Precision::F32), false) => &shaders::WHITTED_F32,
         (Kernel::Whitted(Precision::F32), true) => &shaders::WHITTED_F32_PACKETS,
+        (Kernel::Path(Precision::F64), false) => &shaders::PATH_F64,
+        (Kernel::Path(Precision::F64), true) => &shaders::PATH_F64_PACKETS,
+        (Kernel::Path(Precision::F32), false) => &shaders::PATH_F32,
+        (Kernel::Path(Precision::F32), true) => &shaders::PATH_F32_PACKETS,
         (Kernel::Plain | Kernel::Course, false) => &shaders::WHITTED_PLAIN,
         (Kernel::Plain | Kernel::Course, true) => &shaders::WHITTED_PLAIN_PACKETS,
     }
@@ -172,7 +176,7 @@ impl WhittedPipeline {
         let frame = WhittedPushConstants {
             tile_origin: tile.x | tile.y << 16,
             tile_size: tile.width | tile.height << 16,
-            ..frame.at_sample(index)
+            ..if self.kernel.description().is_statistical { frame.at_run(index) } else { frame.at_sample(index) }
         };
         let light_spheres = light_spheres.map(|area| self.part_of(area, &frame));
         let cut = |&part: &Tile| {

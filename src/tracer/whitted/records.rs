@@ -362,12 +362,24 @@ pub struct WhittedPushConstants {
     pub tile_size: u32,
     /// Number of all lights.
     pub light_sphere_count: u32,
+    /// Of the random numbers of path tracing.
+    pub seed: u32,
+    /// Samples of a pixel in one run of path tracing.
+    pub samples_at_once: u32,
+    /// The block's vectors of four numbers align it.
+    pub padding: [u32; 2],
 }
 
 impl WhittedPushConstants {
-    /// For the sample with this index, where pixels have several.
+    /// For the run with this index, where pixels have several: one sample each, through a fixed place of the pixel.
     pub(super) fn at_sample(self, index: u32) -> Self {
         let sample_weight = 1.0 / (index + 1) as f32;
         Self { sample_place: sample_place(index), samples_before: index, sample_weight, ..self }
+    }
+
+    /// The same of path tracing.
+    pub(super) fn at_run(self, index: u32) -> Self {
+        let samples_before = self.samples_before + index * self.samples_at_once;
+        Self { samples_before, sample_weight: 1.0 / (index + 1) as f32, ..self }
     }
 }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use bytemuck::NoUninit;
 
-use super::super::renderer::{Algorithm, MadeFor, Sample, State, TakenUp, TargetKind};
+use super::super::renderer::{Algorithm, MadeFor, Run, Sample, State, TakenUp, TargetKind};
 use super::super::{Kernel, Settings, TracerError};
 use super::pipeline::{WhittedPipeline, shader_of};
 use super::records::{SolidRecords, WhittedPushConstants, WhittedRecords};
@@ -78,6 +78,19 @@ impl State for WhittedState {
         self.scene.kernel.precision() == Precision::F64
     }
 
+    fn ended_samples(&self) -> u32 {
+        if self.scene.kernel.description().is_statistical {
+            self.scene.samples * self.scene.view_uniforms.frame.samples_at_once
+        } else {
+            self.scene.samples
+        }
+    }
+
+    fn set_run(&mut self, run: Run) {
+        let frame = &mut self.scene.view_uniforms.frame;
+        (frame.samples_before, frame.samples_at_once) = (run.first_sample, run.samples);
+    }
+
     fn write_remainder(&mut self, is_remainder: bool) {
         self.scene.view_uniforms.frame.writes_remainder = u32::from(is_remainder);
     }
@@ -112,6 +125,10 @@ impl WhittedRenderer {
 
     /// That an invocation traces one after another.
     fn pixels(&self, scene: &Scene, settings: &Settings, cost: &TraversalCost) -> u32 {
+        // Its invocations trace several samples of a pixel instead.
+        if self.kernel.description().is_statistical {
+            return 1;
+        }
         // A headless picture is traced again where an invocation took too much; one that a window shows is not.
         // Without boxes, a search among more solids than are looked at is long.
         let unknown = match self.made_for {

@@ -199,10 +199,19 @@ impl WhittedScene {
             sample_weight: 1.0,
             tile_size: traced_size,
             light_sphere_count: records.light_sphere_count,
+            seed: settings.seed,
+            samples_at_once: settings.samples_at_once,
+            padding: [0; 2],
         };
         let exact = Features::of(&records, &approximations, generations);
         let levels = if settings.without_boxes { [0; 4] } else { exact.levels };
-        let features = Features { levels, samples: samples > 1, pixels: pixels.clamp(1, MOST_PIXELS), ..exact };
+        let features = Features {
+            levels,
+            samples: samples > 1,
+            pixels: pixels.clamp(1, MOST_PIXELS),
+            independent_numbers: settings.independent_numbers,
+            ..exact
+        };
         let background = scene.background.as_vec3().to_array();
         // No coordinate is larger than twice the reach: no two points are farther apart than 4 * sqrt(3) of that.
         let farthest = 7.0 * f64::from(records.solids.frame.reach) / records.solids.frame.scale;

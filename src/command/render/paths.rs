@@ -1,0 +1,109 @@
+//! What `zerkalo render` does by path tracing alone: samples until there are enough.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use anyhow::Result;
+use clap::Args;
+
+use super::RenderArgs;
+use crate::algorithm::Algorithm;
+use crate::command::interrupt::Listener;
+use crate::command::options::parse_positive;
+use crate::command::progress_bar;
+use crate::settings::{MAX_PATH_SAMPLES, Numbers};
+use crate::tracer::{Progressive, TracerError};
+
+/// Of a picture for which nothing is asked.
+const USUAL_SAMPLES: u32 = 64;
+
+/// Options of path tracing.
+#[derive(Debug, Clone, Args)]
+pub struct PathArgs {
+    /// By path: another picture of the same scene, by other random numbers
+    #[arg(long, value_name = "S", default_value = "0")]
+    pub seed: u32,
+    /// By path: what random numbers; independent ones are for comparison
+    #[arg(long, value_enum, default_value_t)]
+    pub numbers: Numbers,
+    /// By path: until the estimated standard error of 99 % of the pixels is at most E
+    #[arg(long, value_name = "E", value_parser = parse_positive, allow_hyphen_values = true)]
+    pub until_error: Option<f64>,
+    /// By path: until so many seconds have passed
+    #[arg(long, value_name = "T", value_parser = parse_positive, allow_hyphen_values = true)]
+    pub seconds: Option<f64>,
+    /// By path: write the picture as far as it has come when Ctrl-C ends it
+    #[arg(long)]
+    pub keep_partial: bool,
+}
+
+impl PathArgs {
+    /// # Errors
+    /// An option that is not for the algorithm.
+    pub(super) fn check(&self, args: &RenderArgs) -> Result<(), TracerError> {
+        let is_statistical = args.settings.is_some() || args.algorithm.description().is_statistical;
+        let given = [
+            ("--until-error", self.until_error.is_some()),
+            ("--seconds", self.seconds.is_some()),
+            ("--keep-partial", self.keep_partial),
+        ];
+        if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given && !is_statistical) {
+            let others = Algorithm::names(|row| row.is_statistical);
+            return Err(TracerError::Refused(format!("{option} is for the {others} algorithm")));
+        }
+        if args.repeat.is_some() && args.algorithm.description().is_statistical {
+            let what = "--repeat is not for path tracing, whose every run over the picture is timed";
+            return Err(TracerError::Refused(what.to_owned()));
+        }
+        Ok(())
+    }
+
+    /// Samples of a pixel, at most.
+    pub(super) fn samples(&self, algorithm: Algorithm, asked: Option<u32>) -> u32 {
+        let is_statistical = algorithm.description().is_statistical;
+        let has_end = self.until_error.is_some() || self.seconds.is_some();
+        asked.unwrap_or(match (is_statistical, has_end) {
+            (false, _) => 1,
+            (true, false) => USUAL_SAMPLES,
+            (true, true) => MAX_PATH_SAMPLES,
+        })
+    }
+
+    /// Takes samples of each pixel until there are enough, or Ctrl-C; returns the GPU time of each run, nanoseconds.
+    ///
+    /// # Errors
+    /// A failing device; or stopped before the first run was whole.
+    pub(super) fn add_runs(&self, tracer: &mut Progressive, most: u32, listener: &Listener) -> Result<Vec<u64>> {
+        let begun = Instant::now();
+        let allowed = self.seconds.map(Duration::from_secs_f64);
+        let is_late = || allowed.is_some_and(|allowed| begun.elapsed() >= allowed);
+        let bar = progress_bar(self.units(most));
+        let mut times_ns = Vec::new();
+        while tracer.samples() < most {
+            let drawn = tracer.add_run(most - tracer.samples(), &mut |_| {
+                // A picture of at least one run is worth having, however late.
+                if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            });
+            match drawn {
+                Ok(time_ns) => times_ns.extend(time_ns),
+                Err(TracerError::Stopped) if self.keep_partial && tracer.samples() > 0 => break,
+                Err(error) => return Err(error.into()),
+            }
+            bar.set_position(match allowed {
+                Some(_) => begun.elapsed().as_millis() as u64,
+                None => tracer.samples().into(),
+            });
+            let is_good = |error: f64| tracer.error().is_some_and(|now| now.of_99_percent <= error);
+            if is_late() || self.until_error.is_some_and(is_good) {
+                break;
+            }
+        }
+        bar.finish_and_clear();
+        Ok(times_ns)
+    }
+
+    /// What progress counts: milliseconds where time is given, else samples.
+    fn units(&self, most: u32) -> u64 {
+        self.seconds.map_or(most.into(), |seconds| (seconds * 1e3) as u64)
+    }
+}

@@ -1,0 +1,84 @@
+//! How many generations a path goes through.
+
+use glam::DVec3;
+
+use super::budget::{Spent, Transport};
+use super::{Decision, Reason};
+use crate::scene::{Primitive, Scene};
+use crate::settings::RenderSettings;
+
+/// Those that a picture without an error needs.
+pub(super) fn generations(
+    scene: &Scene,
+    settings: &RenderSettings,
+    transport: &Transport,
+    is_lone: bool,
+) -> Decision<u32> {
+    let asked = match settings.max_depth {
+        Some(depth) => Decision { choice: depth, reason: Reason::Asked },
+        None => Decision { choice: scene.max_depth, reason: Reason::SceneSays },
+    };
+    let row = settings.algorithm.description();
+    if row.is_statistical {
+        return path_generations(scene, asked, is_lone);
+    }
+    if !row.is_specialized {
+        return asked;
+    }
+    let (choice, reason) = if scene.primitives.is_empty() {
+        (1, Reason::NoSolids)
+    } else if transport.largest_gain() == 0.0 {
+        (1, if transport.has_specular() { Reason::NothingReflects } else { Reason::NothingIsSpecular })
+    } else if transport.ceiling(asked.choice) == 0.0 || (is_lone && scene.background == DVec3::ZERO) {
+        (1, Reason::ReflectionsAreBlack)
+    } else if is_lone {
+        (2, Reason::LoneSolidMirrorsBackground)
+    } else {
+        return asked;
+    };
+    if choice < asked.choice { Decision { choice, reason } } else { asked }
+}
+
+/// The first primitive that does not conserve energy, highlights left aside, and by how much.
+pub(super) fn energy_gain(scene: &Scene) -> Option<(usize, f64)> {
+    let gain = |Primitive { material, .. }: &Primitive| {
+        material.diffuse * material.color.max_element() + material.reflection() + material.transmission
+    };
+    // Coefficients that are meant to add up to 1 may be above it by their rounding.
+    scene.primitives.iter().map(gain).enumerate().find(|(_, gain)| *gain > 1.0 + 1e-9)
+}
+
+/// The same of paths that go on from matt surfaces, too.
+fn path_generations(scene: &Scene, asked: Decision<u32>, is_lone: bool) -> Decision<u32> {
+    let scatters = |Primitive { material, .. }: &Primitive| {
+        material.diffuse > 0.0 && material.color != DVec3::ZERO
+            || material.reflection() > 0.0
+            || material.transmission > 0.0
+    };
+    let (choice, reason) = if scene.primitives.is_empty() {
+        (1, Reason::NoSolids)
+    } else if !scene.primitives.iter().any(scatters) {
+        (1, Reason::NothingReflects)
+    } else if is_lone && scene.background == DVec3::ZERO {
+        (1, Reason::ReflectionsAreBlack)
+    } else if is_lone {
+        (2, Reason::LoneSolidMirrorsBackground)
+    } else {
+        return asked;
+    };
+    if choice < asked.choice { Decision { choice, reason } } else { asked }
+}
+
+/// The generations that the allowed error leaves.
+pub(super) fn approximated_generations(exact: Decision<u32>, spent: &Spent) -> Decision<u32> {
+    let Spent { approximations, bounds, generations } = *spent;
+    if approximations.min_throughput == 0.0 {
+        return exact;
+    }
+    let reason = Reason::PathsFade {
+        min_throughput: approximations.min_throughput,
+        of: exact.choice,
+        bound: bounds.generations,
+    };
+    Decision { choice: generations, reason }
+}
