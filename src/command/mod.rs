@@ -1,5 +1,6 @@
 //! One file a subcommand, each a few lines over the library.
 
+mod algorithms;
 pub mod compare;
 mod convert;
 mod devices;
@@ -48,6 +49,7 @@ pub enum Command {
     Stability(stability::StabilityArgs),
     Fps(fps::FpsArgs),
     Trade(trade::TradeArgs),
+    Algorithms(algorithms::AlgorithmsArgs),
     Validate(validate::ValidateArgs),
     Report(report::ReportArgs),
     Devices(devices::DevicesArgs),
@@ -66,6 +68,7 @@ impl Command {
             Self::Stability(args) => stability::run(args),
             Self::Fps(args) => fps::run(args),
             Self::Trade(args) => trade::run(args),
+            Self::Algorithms(args) => algorithms::run(args),
             Self::Validate(args) => validate::run(args),
             Self::Report(args) => report::run(args),
             Self::Devices(args) => devices::run(args),

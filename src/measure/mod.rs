@@ -1,5 +1,6 @@
 //! What a frame is worth: how far it is from another, and what it costs.
 
+pub mod algorithms;
 mod discontinuity;
 mod error_map;
 pub mod fps_table;

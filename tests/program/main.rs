@@ -11,6 +11,7 @@ mod random;
 
 mod command_line;
 mod fps;
+mod paths;
 mod report;
 mod setup;
 mod ssr;
