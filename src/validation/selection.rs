@@ -3,7 +3,6 @@
 use serde::Serialize;
 
 use super::{Run, Scope};
-use crate::algorithm::{Kernel, Precision};
 use crate::plan::{Features, LightFeatures, Media, WORKGROUP, scene_space};
 use crate::tracer::Settings;
 use crate::tracer::whitted::WhittedRecords;
@@ -24,8 +23,8 @@ pub(super) fn are_of_one_shader(a: &Run, b: &Run) -> bool {
 pub fn instrumented(runs: &[Run], scope: Scope) -> Vec<Run> {
     let of_one_shader = by_shader(runs).flat_map(|runs| match scope {
         Scope::Whole => few_with_all(runs, |_| true),
-        // In f64 path tracing reads what whitted does, and takes longest of all to compile.
-        Scope::EverySwitch if runs[0].settings.kernel == Kernel::Path(Precision::F64) => Vec::new(),
+        // Path tracing reads what whitted does, by the same functions, and takes longest of all to compile.
+        Scope::EverySwitch if runs[0].settings.kernel.description().is_statistical => Vec::new(),
         Scope::EverySwitch if runs[0].settings.workgroup == WORKGROUP => few_with_all(runs, adds_accesses),
         Scope::EverySwitch => Vec::new(),
     });
