@@ -135,7 +135,7 @@ mod tests {
             "whitted_f64_packets",
             "whitted_plain_packets",
         ][..];
-        for (file, others) in [("course/phong.glsl", whitted), ("whitted/shade.glsl", course)] {
+        for (file, others) in [("course/phong.glsl", whitted), ("transport/shade.glsl", course)] {
             let path = folder.path().join(file);
             let whole = fs::read_to_string(&path).unwrap();
             fs::write(&path, format!("broken\n{whole}")).unwrap();
