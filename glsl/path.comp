@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
-// Path tracing of the accurate model (docs/light-model.md, "Path tracing"): one source for float and double.
+// Path tracing of the accurate model (docs/path-tracing.md): one source for float and double.
 layout(local_size_x_id = 5, local_size_y_id = 6) in;
 
 #include "records/records.glsl"

@@ -130,6 +130,18 @@ pub fn display_value(linear: f32) -> u8 {
 }
 
 impl Frame {
+    /// Of display values, three bytes a pixel, row by row from the top.
+    ///
+    /// # Errors
+    /// As of [`Frame::new`].
+    pub(crate) fn of_display(width: u32, height: u32, bytes: &[u8]) -> Result<Self, FrameError> {
+        let mut frame = Self::new(width, height)?;
+        for (pixel, rgb) in frame.pixels.iter_mut().zip(bytes.chunks_exact(3)) {
+            *pixel = [rgb[0], rgb[1], rgb[2]].map(|value| f32::from(value) / 255.0);
+        }
+        Ok(frame)
+    }
+
     /// Largest width and height in pixels.
     pub const MAX_SIDE: u32 = 16384;
 

@@ -5,7 +5,7 @@ const uint PLACE_IN_PIXEL = 0u;
 uint choice_of(uint generation) { return 2u * generation; }
 uint direction_of(uint generation) { return 2u * generation + 1u; }
 
-// Below this weight Russian roulette ends paths; docs/performance.md has the figures that chose it.
+// Below this weight Russian roulette ends paths; docs/path-tracing.md has the figures that chose it.
 const Real ROULETTE_WEIGHT = 0.25;
 
 // Of the two numbers of the choice, that which chooses the successor; the other is the roulette's.

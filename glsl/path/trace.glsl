@@ -1,4 +1,4 @@
-// A pixel's samples, a path each (docs/light-model.md, "Path tracing").
+// A pixel's samples, a path each (docs/path-tracing.md).
 #include "numbers.glsl"
 #include "diffuse.glsl"
 #include "successors.glsl"

@@ -193,9 +193,14 @@ impl Description {
         !self.kernels.is_empty()
     }
 
+    /// Whether a Vulkan device runs it, and its pictures do not depend on chance.
+    pub fn is_deterministic(&self) -> bool {
+        self.is_on_device() && !self.is_statistical
+    }
+
     /// Whether its rays can be tried one by one: what a picture shows comes of them alone.
     pub fn casts_rays(&self) -> bool {
-        self.is_on_device() && !self.is_statistical && !self.kernels.iter().any(|kernel| kernel.draws_whole())
+        self.is_deterministic() && !self.kernels.iter().any(|kernel| kernel.draws_whole())
     }
 
     /// Whether a precision can be asked for.
@@ -226,9 +231,9 @@ impl Algorithm {
         ALGORITHMS.iter().filter(|description| description.is_on_device()).map(|description| description.algorithm)
     }
 
-    /// Of those that a Vulkan device runs, the ones whose pictures do not depend on chance.
+    /// Those whose pictures do not depend on chance, on a Vulkan device, in the order of [`ALGORITHMS`].
     pub fn deterministic() -> impl Iterator<Item = Self> {
-        Self::on_device().filter(|algorithm| !algorithm.description().is_statistical)
+        ALGORITHMS.iter().filter(|description| description.is_deterministic()).map(|description| description.algorithm)
     }
 
     /// Those that table 4.1 of the course work is measured with, in the order of [`ALGORITHMS`].

@@ -12,7 +12,7 @@ use clap::{Args, ValueEnum};
 use super::interrupt::Listener;
 use super::options::{Contradictory, parse_algorithm, parse_error, parse_size};
 use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files, scene_named};
-use crate::algorithm::Algorithm;
+use crate::algorithm::{Algorithm, Description};
 use crate::gpu::Device;
 use crate::measure::output::Document;
 use crate::measure::trade::{
@@ -62,7 +62,7 @@ pub struct TradeArgs {
     pub off_edges: bool,
     /// Only these algorithms [default: all]
     #[arg(long, alias = "kernel", value_name = "ALGORITHM,ALGORITHM", value_delimiter = ',',
-          value_parser = parse_algorithm(|row| row.is_on_device() && !row.is_statistical))]
+          value_parser = parse_algorithm(Description::is_deterministic))]
     pub algorithm: Vec<Algorithm>,
     /// Measure each setting so long, seconds [default: 1 s or 9 pairs of frames, whichever is first, but 2 pairs and
     /// 0.25 s at least]

@@ -19,6 +19,12 @@ pub struct Machine {
 }
 
 impl Machine {
+    /// One line for a chart: what measured, `picture`, and whether the validation layers watched.
+    pub fn caption(&self, picture: &str, validation: bool) -> String {
+        let watched = if validation { " · under validation" } else { "" };
+        format!("{} ({}) · {picture} · {}{watched}", self.device, self.driver, self.program)
+    }
+
     /// This program on a device, nothing shown.
     pub fn of(device: &DeviceDescription) -> Self {
         let version = concat!("zerkalo ", env!("CARGO_PKG_VERSION"));

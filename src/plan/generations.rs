@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::budget::{Spent, Transport};
 use super::{Decision, Reason};
-use crate::scene::{Primitive, Scene};
+use crate::scene::{Material, Scene};
 use crate::settings::RenderSettings;
 
 /// Those that a picture without an error needs.
@@ -19,17 +19,20 @@ pub(super) fn generations(
         None => Decision { choice: scene.max_depth, reason: Reason::SceneSays },
     };
     let row = settings.algorithm.description();
-    if row.is_statistical {
-        return path_generations(scene, asked, is_lone);
-    }
     if !row.is_specialized {
         return asked;
     }
+    // Paths by chance go on from matt surfaces, too, and need no light of a surface's own to bring something back.
+    let (goes_on, is_black) = if row.is_statistical {
+        (scene.primitives.iter().any(|primitive| gain(&primitive.material) > 0.0), false)
+    } else {
+        (transport.largest_gain() > 0.0, transport.ceiling(asked.choice) == 0.0)
+    };
     let (choice, reason) = if scene.primitives.is_empty() {
         (1, Reason::NoSolids)
-    } else if transport.largest_gain() == 0.0 {
+    } else if !goes_on {
         (1, if transport.has_specular() { Reason::NothingReflects } else { Reason::NothingIsSpecular })
-    } else if transport.ceiling(asked.choice) == 0.0 || (is_lone && scene.background == DVec3::ZERO) {
+    } else if is_black || (is_lone && scene.background == DVec3::ZERO) {
         (1, Reason::ReflectionsAreBlack)
     } else if is_lone {
         (2, Reason::LoneSolidMirrorsBackground)
@@ -37,36 +40,18 @@ pub(super) fn generations(
         return asked;
     };
     if choice < asked.choice { Decision { choice, reason } } else { asked }
+}
+
+/// The most of the light that a surface gets which goes on from it by a path, highlights left aside.
+fn gain(material: &Material) -> f64 {
+    material.diffuse * material.color.max_element() + material.reflection() + material.transmission
 }
 
 /// The first primitive that does not conserve energy, highlights left aside, and by how much.
 pub(super) fn energy_gain(scene: &Scene) -> Option<(usize, f64)> {
-    let gain = |Primitive { material, .. }: &Primitive| {
-        material.diffuse * material.color.max_element() + material.reflection() + material.transmission
-    };
+    let gains = scene.primitives.iter().map(|primitive| gain(&primitive.material));
     // Coefficients that are meant to add up to 1 may be above it by their rounding.
-    scene.primitives.iter().map(gain).enumerate().find(|(_, gain)| *gain > 1.0 + 1e-9)
-}
-
-/// The same of paths that go on from matt surfaces, too.
-fn path_generations(scene: &Scene, asked: Decision<u32>, is_lone: bool) -> Decision<u32> {
-    let scatters = |Primitive { material, .. }: &Primitive| {
-        material.diffuse > 0.0 && material.color != DVec3::ZERO
-            || material.reflection() > 0.0
-            || material.transmission > 0.0
-    };
-    let (choice, reason) = if scene.primitives.is_empty() {
-        (1, Reason::NoSolids)
-    } else if !scene.primitives.iter().any(scatters) {
-        (1, Reason::NothingReflects)
-    } else if is_lone && scene.background == DVec3::ZERO {
-        (1, Reason::ReflectionsAreBlack)
-    } else if is_lone {
-        (2, Reason::LoneSolidMirrorsBackground)
-    } else {
-        return asked;
-    };
-    if choice < asked.choice { Decision { choice, reason } } else { asked }
+    gains.enumerate().find(|(_, gain)| *gain > 1.0 + 1e-9)
 }
 
 /// The generations that the allowed error leaves.

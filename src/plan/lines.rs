@@ -163,9 +163,13 @@ impl Plan {
 
     fn error_line(&self) -> Line {
         let (error, bounds) = (self.settings.error, &self.bounds);
-        if self.screen_space_line().is_some() {
-            let why = "how far reflections are off is bounded by nothing".to_owned();
-            return Line { what: "error", choice: "unknown".to_owned(), why, saves: None };
+        let unbounded = match self.settings.algorithm {
+            Algorithm::Ssr => Some(("unknown", "how far reflections are off is bounded by nothing")),
+            Algorithm::Path => Some(("by chance", "the picture comes with an estimate of its standard error")),
+            Algorithm::Course | Algorithm::Plain | Algorithm::Whitted | Algorithm::Reference => None,
+        };
+        if let Some((choice, why)) = unbounded {
+            return Line { what: "error", choice: choice.to_owned(), why: why.to_owned(), saves: None };
         }
         let why = if bounds.total() == 0.0 {
             "nothing is left out that a pixel could show".to_owned()

@@ -198,7 +198,7 @@ impl Canvas {
         let &Sampling { samples, scale } = &self.sampling;
         let [width, height] = self.size;
         if self.renderer.target() == TargetKind::Pixels {
-            check_picture(self.device.description(), self.sampling.traced_size(self.size))?;
+            check_picture(self.device.description(), self.sampling.traced_size(self.size), "a smaller scale works")?;
         }
         // Chunks are of whole workgroups.
         let settings = Settings {

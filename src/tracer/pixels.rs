@@ -17,17 +17,17 @@ pub(super) fn largest_side(device: &DeviceDescription) -> u32 {
     device.max_image_side.min(u32::try_from(most_pixels.isqrt()).unwrap_or(u32::MAX))
 }
 
-/// Refuses a picture that the device lets no kernel draw whole.
-pub(super) fn check_picture(device: &DeviceDescription, [width, height]: [u32; 2]) -> Result<(), TracerError> {
-    check(&device.name, device.max_storage_bytes, [width, height])
+/// Refuses a picture that the device lets no kernel draw whole; `advice`: why it must, or what helps.
+pub(super) fn check_picture(device: &DeviceDescription, size: [u32; 2], advice: &str) -> Result<(), TracerError> {
+    check(&device.name, device.max_storage_bytes, size, advice)
 }
 
-fn check(device: &str, limit: u64, [width, height]: [u32; 2]) -> Result<(), TracerError> {
+fn check(device: &str, limit: u64, [width, height]: [u32; 2], advice: &str) -> Result<(), TracerError> {
     let bytes = u64::from(width) * u64::from(height) * PIXEL_BYTES;
     if bytes > limit {
         return Err(TracerError::Refused(format!(
             "a picture of {width}x{height} pixels is too large for device '{device}' in one piece: it takes {bytes} B, \
-             and a kernel sees {limit} B there; a smaller scale works"
+             and a kernel sees {limit} B there; {advice}"
         )));
     }
     Ok(())
@@ -39,8 +39,8 @@ mod tests {
 
     #[test]
     fn a_picture_that_no_kernel_sees_whole_is_refused_in_one_line() {
-        assert!(check("small", 1 << 27, [3840, 2160]).is_ok());
-        let line = check("small", 1 << 27, [5120, 2880]).unwrap_err().to_string();
+        assert!(check("small", 1 << 27, [3840, 2160], "").is_ok());
+        let line = check("small", 1 << 27, [5120, 2880], "a smaller scale works").unwrap_err().to_string();
         assert!(!line.contains('\n'), "{line}");
         for part in ["5120x2880", "'small'", "235929600 B", "134217728 B", "scale"] {
             assert!(line.contains(part), "{part} is missing in: {line}");

@@ -39,8 +39,6 @@ pub struct Settings {
     pub scale: f64,
     /// Of path tracing's random numbers.
     pub seed: u32,
-    /// Samples of each pixel that path tracing takes in one run; see [`Progressive`](super::Progressive).
-    pub samples_at_once: u32,
     /// Random numbers that know nothing of each other.
     pub independent_numbers: bool,
     /// By screen-space reflections: in place of the picture, why its reflections may be wrong, in colours.
@@ -63,7 +61,6 @@ impl Settings {
             samples: 1,
             scale: 1.0,
             seed: 0,
-            samples_at_once: 1,
             independent_numbers: false,
             shows_reasons: false,
         }

@@ -181,7 +181,12 @@ impl Way {
         let Self { kernel, workgroup, without_boxes, error, sampling } = self;
         let scene = &subject.scene;
         let [width, height] = PICTURE;
-        let settings = RenderSettings { precision: Some(kernel.precision()), error, ..RenderSettings::default() };
+        let settings = RenderSettings {
+            algorithm: kernel.algorithm(),
+            precision: Some(kernel.precision()),
+            error,
+            ..RenderSettings::default()
+        };
         let plan = Plan::for_scene(scene, &settings, [width, height], limits)?;
         let has_boxes = plan.structures.choice.iter().any(|structure| *structure != Structure::None);
         let cuts_nothing = (plan.approximations.min_throughput, plan.approximations.min_shadowed, plan.bounds.total())
@@ -193,7 +198,7 @@ impl Way {
         if is_as_another || is_refused || is_shown_elsewhere {
             return Ok(None);
         }
-        let settings = if row.is_accurate {
+        let settings = if row.is_specialized {
             Settings::planned(&plan)
         } else {
             Settings { kernel, ..Settings::new(width, height) }

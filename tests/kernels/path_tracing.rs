@@ -238,8 +238,9 @@ fn pictures_are_those_of_the_reference_on_the_cpu() {
         };
         let pictures: Vec<Vec<DVec3>> = (0..SEEDS).map(of_seed).collect();
         let n = f64::from(SEEDS);
-        // Less noise than rounding makes is none: mirrored edges and highlights magnify that to some 1e-5.
-        let floor = DVec3::splat(1e-4_f64.powi(2));
+        // Rounding to f32 moves colours by up to 1.6e-5 (whitted in f32 against the reference, 300 random scenes of
+        // glass): noise below that is none.
+        let floor = DVec3::splat(1.6e-5_f64.powi(2));
         let mut worst = 0.0_f64;
         for (pixel, cpu) in cpu.iter().enumerate() {
             let mean = pictures.iter().map(|picture| picture[pixel]).sum::<DVec3>() / n;
@@ -260,7 +261,9 @@ fn estimated_errors_are_those_that_there_are() {
     let scene = matt_scene();
     let truth: Vec<DVec3> =
         drawn(&device, &scene, &RenderSettings { seed: 77, ..PATH }, SMALL, 1 << 14).means().collect();
-    for (numbers, low, high) in [(Numbers::Independent, 0.9, 1.1), (Numbers::Sobol, 0.2, 1.0)] {
+    // The root of the mean square of 864 independent pixels is off by 1 / sqrt(2 * 864) = 2.4 %: four times that, and of
+    // Sobol's numbers, which spare each other more than runs can tell, no more than the estimate.
+    for (numbers, low, high) in [(Numbers::Independent, 0.9, 1.1), (Numbers::Sobol, 0.0, 1.0)] {
         let picture = drawn(&device, &scene, &RenderSettings { numbers, ..PATH }, SMALL, 512);
         // All channels are one.
         let squares: f64 = picture.means().zip(&truth).map(|(mean, truth)| (mean.x - truth.x).powi(2)).sum();

@@ -15,7 +15,7 @@ use zerkalo::gpu::{
 };
 use zerkalo::plan::Approximations;
 use zerkalo::reference::{Hit, OriginSurface, PrimaryRays, Ray, World};
-use zerkalo::scene::{Camera, Light, Material, Primitive, Projection, Scene, Solid, gallery};
+use zerkalo::scene::{Camera, Light, Projection, Scene, gallery};
 use zerkalo::tracer::{Canvas, Kernel, Precision, Settings, Tracer, TracerError};
 
 const SIZE: [u32; 2] = [162, 70];
@@ -45,16 +45,8 @@ fn matt(mut scene: Scene) -> Scene {
 }
 
 /// Told from the camera: lengths differ by millions.
-fn pillar_on_planet() -> Scene {
-    let of = |solid| Primitive { name: None, solid, material: Material::default() };
-    let planet = Solid::Sphere { center: DVec3::Y * -6.371e6, radius: 6.371e6 };
-    let pillar = Solid::Cylinder { ends: [DVec3::ZERO, DVec3::Y * 3.0], radius: 0.5 };
-    Scene {
-        camera: Camera { position: DVec3::new(0.0, 2.0, -10.0), ..Camera::default() },
-        lights: vec![Light { position: DVec3::new(9.0, 9.0, -9.0), ..Light::default() }],
-        primitives: vec![of(planet), of(pillar)],
-        ..Scene::default()
-    }
+fn planet() -> Scene {
+    Scene::load(Path::new("tests/scenes/reports/planet.json")).unwrap()
 }
 
 /// The showcase with a second light, whose sphere the camera sees.
@@ -72,7 +64,7 @@ fn where_nothing_is_mirrored_the_picture_is_the_accurate_one_bit_for_bit() {
     let mut scenes: Vec<_> = ["showcase", "corridor", "fading", "grid-cone-100", "cloud-400"].map(named).to_vec();
     scenes.push(("three lights".to_owned(), Scene::load(Path::new("tests/scenes/three_lights.toml")).unwrap()));
     scenes.push(("two lights".to_owned(), two_lights()));
-    scenes.push(("a pillar on a planet".to_owned(), pillar_on_planet()));
+    scenes.push(("a planet".to_owned(), planet()));
     scenes.push(("nothing".to_owned(), Scene { primitives: Vec::new(), ..two_lights() }));
     let mut tracers = Tracers::new(&device);
     for projection in Projection::ALL {
@@ -212,7 +204,7 @@ fn pictures_of_any_size_and_scene_are_of_numbers() {
     for size in [[1, 1], [1, 37], [41, 1], [2, 2], [33, 17], [64, 64], [63, 65]] {
         assert!(is_of_numbers(&showcase, size), "{size:?}");
     }
-    let others = [gallery::scene("glass").unwrap(), pillar_on_planet(), budget::random_scene(3)];
+    let others = [gallery::scene("glass").unwrap(), planet(), budget::random_scene(3)];
     for (number, scene) in others.iter().enumerate() {
         assert!(is_of_numbers(scene, [61, 47]), "scene {number}");
     }

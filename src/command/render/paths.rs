@@ -72,7 +72,7 @@ impl PathArgs {
     /// Takes samples of each pixel until there are enough, or Ctrl-C; returns the GPU time of each run, nanoseconds.
     ///
     /// # Errors
-    /// A failing device; or stopped before the first run was whole.
+    /// A failing device; or stopped, and nothing is to be kept.
     pub(super) fn add_runs(&self, tracer: &mut Progressive, most: u32, listener: &Listener) -> Result<Vec<u64>> {
         let begun = Instant::now();
         let allowed = self.seconds.map(Duration::from_secs_f64);
@@ -80,13 +80,15 @@ impl PathArgs {
         let bar = progress_bar(self.units(most));
         let mut times_ns = Vec::new();
         while tracer.samples() < most {
+            // What is to be kept is at least one run, however late.
+            let is_owed = self.keep_partial && tracer.samples() == 0;
             let drawn = tracer.add_run(most - tracer.samples(), &mut |_| {
-                // A picture of at least one run is worth having, however late.
-                if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+                let is_stopped = listener.stop_requested() && !is_owed;
+                if is_stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             });
             match drawn {
                 Ok(time_ns) => times_ns.extend(time_ns),
-                Err(TracerError::Stopped) if self.keep_partial && tracer.samples() > 0 => break,
+                Err(TracerError::Stopped) if self.keep_partial => break,
                 Err(error) => return Err(error.into()),
             }
             bar.set_position(match allowed {

@@ -21,7 +21,6 @@ fn marker(name: &str) -> Marker {
 
 pub fn chart(comparison: &Comparison) -> Chart {
     let Comparison { machine, conditions, scenes } = comparison;
-    let watched = if conditions.validation { " · under validation" } else { "" };
     let sample = |&(name, ..): &(&str, Shape, RGBColor)| Sample {
         name: name.to_owned(),
         stroke: (name == "path").then_some(LINE),
@@ -29,10 +28,7 @@ pub fn chart(comparison: &Comparison) -> Chart {
     };
     Chart {
         title: "Table 1.1, measured: time against error · Таблица 1.1: время и ошибка",
-        subtitle: format!(
-            "{} ({}) · {}x{} · {}{watched}",
-            machine.device, machine.driver, conditions.width, conditions.height, machine.program
-        ),
+        subtitle: machine.caption(&format!("{}x{}", conditions.width, conditions.height), conditions.validation),
         plot: [608, 366],
         rows: scenes.iter().map(|scene| vec![panel(scene)]).collect(),
         legend: LOOKS.iter().map(sample).collect(),

@@ -14,7 +14,6 @@ mod tables;
 use serde::Serialize;
 
 pub use measuring::{Step, measure, pictures_of_a_seed};
-pub use ranks::{Criterion, Rank, ranks};
 pub(crate) use sheet::contact_sheet;
 
 use super::{Machine, median};

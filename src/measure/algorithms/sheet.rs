@@ -44,9 +44,5 @@ pub fn contact_sheet(comparison: &Comparison) -> Result<Frame, OutputError> {
             }
         }
     }
-    let mut frame = Frame::new(size.0, size.1)?;
-    for (pixel, rgb) in frame.pixels_mut().iter_mut().zip(bytes.chunks_exact(3)) {
-        *pixel = [rgb[0], rgb[1], rgb[2]].map(|value| f32::from(value) / 255.0);
-    }
-    Ok(frame)
+    Ok(Frame::of_display(size.0, size.1, &bytes)?)
 }

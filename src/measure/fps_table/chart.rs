@@ -30,7 +30,7 @@ pub fn chart(table: &FpsTable) -> Chart {
     let published =
         Subject { name: "course work, published".to_owned(), speeds: published(), quartiles: Box::new(|_, _| None) };
     let subjects: Vec<_> = [published].into_iter().chain(plan.algorithms.iter().map(measured)).collect();
-    let watched = if plan.validation { " · under validation" } else { "" };
+    let picture = format!("{}x{}, {} generations", plan.width, plan.height, plan.generations);
     let sample = |kind| {
         let (stroke, marker) = look(kind);
         let Words { english, russian } = kind_words(kind);
@@ -38,10 +38,7 @@ pub fn chart(table: &FpsTable) -> Chart {
     };
     Chart {
         title: "Frames a second by number and kind of solids · Кадры в секунду от числа и вида тел",
-        subtitle: format!(
-            "{} ({}) · {}x{}, {} generations · {}{watched}",
-            machine.device, machine.driver, plan.width, plan.height, plan.generations, machine.program
-        ),
+        subtitle: machine.caption(&picture, plan.validation),
         plot: [410, 300],
         rows: vec![
             row("FPS, the fastest = 1 · кадры/с", subjects.iter().map(Subject::in_parts_of_the_fastest).collect()),

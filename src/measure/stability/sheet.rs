@@ -101,11 +101,7 @@ pub fn error_sheet(
         draw_legend(&area, height - LEGEND_HEIGHT + GAP, &text).map_err(drawing)?;
         area.present().map_err(drawing)?;
     }
-    let mut frame = Frame::new(width, height)?;
-    for (pixel, rgb) in frame.pixels_mut().iter_mut().zip(bytes.chunks_exact(3)) {
-        *pixel = [rgb[0], rgb[1], rgb[2]].map(|value| f32::from(value) / 255.0);
-    }
-    Ok(frame)
+    Ok(Frame::of_display(width, height, &bytes)?)
 }
 
 fn truth(scene: &Scene) -> Result<Vec<DVec3>, TracerError> {

@@ -19,13 +19,9 @@ const ASKED: Stroke = Stroke { color: RGBColor(90, 90, 90), width: 1, dash: Some
 
 pub fn chart(trade: &Trade) -> Chart {
     let Trade { machine, conditions, scenes } = trade;
-    let watched = if conditions.validation { " · under validation" } else { "" };
     Chart {
         title: "The price of accuracy: time against error · Цена точности: время и ошибка",
-        subtitle: format!(
-            "{} ({}) · {}x{} · {}{watched}",
-            machine.device, machine.driver, conditions.width, conditions.height, machine.program
-        ),
+        subtitle: machine.caption(&format!("{}x{}", conditions.width, conditions.height), conditions.validation),
         plot: [608, 366],
         rows: scenes.iter().map(|scene| vec![panel(scene, trade)]).collect(),
         legend: GROUPS.iter().map(Group::sample).collect(),

@@ -6,6 +6,7 @@ mod surfaces;
 
 use std::sync::Arc;
 
+use super::pixels::check_picture;
 use super::renderer::{Algorithm, MadeFor, Sample, State, TakenUp, TargetKind};
 use super::tiles::Tile;
 use super::whitted::{WhittedRenderer, WhittedState};
@@ -13,7 +14,7 @@ use super::{Kernel, Settings, TracerError};
 use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Use};
 use crate::scene::Scene;
 use passes::{DepthPyramid, Reflections, Variant};
-use surfaces::{Surfaces, check_picture};
+use surfaces::Surfaces;
 
 /// The kernels with the scene that they took up last.
 pub(super) struct SsrRenderer {
@@ -39,14 +40,13 @@ pub(super) struct SsrState {
     light: WhittedState,
     size: [u32; 2],
     generations: u32,
-    has_mirrors: bool,
     shows_reasons: bool,
 }
 
 impl SsrState {
     /// Whether a ray goes on from any surface.
     fn has_reflections(&self) -> bool {
-        self.has_mirrors && self.generations > 1
+        self.light.has_mirrors() && self.generations > 1
     }
 
     fn variant(&self) -> Variant {
@@ -118,13 +118,13 @@ impl Algorithm for SsrRenderer {
     fn prepare(&self, scene: &Scene, settings: &Settings) -> Result<SsrState, TracerError> {
         settings.sampling().check_plain().map_err(TracerError::Refused)?;
         let size = [settings.width, settings.height];
-        check_picture(self.device.description(), size)?;
+        // The pyramid takes less.
+        check_picture(self.device.description(), size, "the ssr algorithm draws it whole")?;
         let first_generation = Settings { max_depth: Some(1), ..settings.clone() };
         Ok(SsrState {
             light: self.light.prepare(scene, &first_generation)?,
             size,
             generations: settings.generations(scene),
-            has_mirrors: scene.primitives.iter().any(|primitive| primitive.material.reflection() > 0.0),
             shows_reasons: settings.shows_reasons,
         })
     }

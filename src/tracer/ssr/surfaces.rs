@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use super::super::TracerError;
 use super::super::pixels::pixel_buffer;
-use crate::gpu::{Buffer, BufferKind, Device, DeviceDescription, GpuError, PIXEL_BYTES, Resource};
+use crate::gpu::{Buffer, BufferKind, Device, GpuError, Resource};
 
 /// Of a picture, pixel by pixel, and the depth pyramid over it.
 pub(super) struct Surfaces {
@@ -52,26 +51,10 @@ pub(super) fn levels(size: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
     std::iter::successors(Some(size), |&size| (size != [1, 1]).then(|| size.map(|side| side.div_ceil(2))))
 }
 
-/// Refuses a picture that the device lets no kernel see whole.
-pub(super) fn check_picture(device: &DeviceDescription, size: [u32; 2]) -> Result<(), TracerError> {
-    check(&device.name, device.max_storage_bytes, size)
-}
-
-fn check(device: &str, limit: u64, [width, height]: [u32; 2]) -> Result<(), TracerError> {
-    // The pyramid takes less.
-    let bytes = area([width, height]) * PIXEL_BYTES;
-    if bytes > limit {
-        return Err(TracerError::Refused(format!(
-            "a picture of {width}x{height} pixels is too large for the ssr algorithm on device '{device}', which draws \
-             it whole: it takes {bytes} B, and a kernel sees {limit} B there"
-        )));
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gpu::PIXEL_BYTES;
 
     #[test]
     fn a_pyramid_ends_in_one_cell_and_takes_less_than_the_pixels() {
@@ -80,18 +63,6 @@ mod tests {
         for size in [[1, 1], [1, 7], [405, 175], [16384, 16384]] {
             let cells: u64 = levels(size).map(area).sum();
             assert!(cells * DEPTH_BYTES <= area(size) * PIXEL_BYTES + 16 * DEPTH_BYTES, "{size:?}");
-        }
-    }
-
-    #[test]
-    fn a_picture_that_no_kernel_sees_whole_is_refused_in_one_line() {
-        assert!(check("small", 1 << 27, [3840, 2160]).is_ok());
-        let error = check("small", 1 << 27, [5120, 2880]).unwrap_err();
-        assert!(error.is_input_error());
-        let line = error.to_string();
-        assert!(!line.contains('\n'), "{line}");
-        for part in ["5120x2880", "'small'", "ssr", "235929600 B", "134217728 B"] {
-            assert!(line.contains(part), "{part} is missing in: {line}");
         }
     }
 }

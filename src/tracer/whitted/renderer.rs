@@ -39,6 +39,7 @@ struct Primitives {
     extent: Extent,
     cost: TraversalCost,
     light: LightFeatures,
+    has_mirrors: bool,
 }
 
 impl Primitives {
@@ -48,6 +49,7 @@ impl Primitives {
             extent: Extent::of(primitives),
             cost: TraversalCost::of(primitives),
             light: LightFeatures::of_primitives(primitives),
+            has_mirrors: primitives.iter().any(|primitive| primitive.material.reflection() > 0.0),
         }
     }
 }
@@ -97,6 +99,11 @@ impl State for WhittedState {
 }
 
 impl WhittedState {
+    /// Whether any surface mirrors.
+    pub fn has_mirrors(&self) -> bool {
+        self.primitives.has_mirrors
+    }
+
     /// What the kernel is compiled for.
     pub fn features(&self) -> Features {
         self.scene.features

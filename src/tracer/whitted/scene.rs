@@ -200,7 +200,7 @@ impl WhittedScene {
             tile_size: traced_size,
             light_sphere_count: records.light_sphere_count,
             seed: settings.seed,
-            samples_at_once: settings.samples_at_once,
+            samples_at_once: 1,
             padding: [0; 2],
         };
         let exact = Features::of(&records, &approximations, generations);
