@@ -6,8 +6,7 @@ use clap::builder::{PossibleValuesParser, RangedI64ValueParser, TypedValueParser
 use crate::algorithm::{Algorithm, Description};
 use crate::frame::Frame;
 use crate::scene::DEPTH_LIMIT;
-use crate::settings::MAX_PATH_SAMPLES;
-use crate::settings::sampling::Sampling;
+use crate::settings::sampling::{MAX_PATH_SAMPLES, Sampling};
 
 /// Options that do not go together.
 #[derive(Debug, thiserror::Error)]
@@ -41,7 +40,7 @@ fn parse_fraction(text: &str) -> Option<f64> {
 /// Such as 0.5 or 1/2.
 pub(super) fn parse_scale(text: &str) -> Result<f64, String> {
     let scale = parse_fraction(text).ok_or("it must be a number or a fraction, such as 0.5 or 1/2")?;
-    Sampling { scale, ..Sampling::PLAIN }.check().map_err(|error| error.to_string())?;
+    Sampling { scale, ..Sampling::PLAIN }.check(MAX_PATH_SAMPLES)?;
     Ok(scale)
 }
 

@@ -1,5 +1,6 @@
 //! The images that the window shows, and the commands that fill them.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use ash::{khr, vk};
@@ -200,14 +201,16 @@ impl Swapchain {
         recorder: &mut Recorder,
         image: &Image,
         background: [f32; 4],
-        picture: &Resource,
+        pictures: &[(&Resource, Range<u32>)],
         corner: [u32; 2],
         draw_widgets: impl FnOnce(vk::CommandBuffer),
     ) -> Result<(), GpuError> {
         recorder.labelled("copy picture", |recorder| {
-            recorder.make_ready(picture, Use::CopySource);
-            recorder.note_use(picture, "show", Use::CopySource);
-            self.copy_picture(recorder, image.raw, background, picture, corner);
+            for (picture, _) in pictures {
+                recorder.make_ready(picture, Use::CopySource);
+                recorder.note_use(picture, "show", Use::CopySource);
+            }
+            self.copy_pictures(recorder, image.raw, background, pictures, corner);
             Ok(())
         })?;
         recorder.labelled("widgets", |recorder| {
@@ -224,12 +227,12 @@ impl Swapchain {
         })
     }
 
-    fn copy_picture(
+    fn copy_pictures(
         &self,
         recorder: &Recorder,
         target: vk::Image,
         background: [f32; 4],
-        picture: &Resource,
+        pictures: &[(&Resource, Range<u32>)],
         corner: [u32; 2],
     ) {
         const LAYOUT: vk::ImageLayout = vk::ImageLayout::TRANSFER_DST_OPTIMAL;
@@ -250,14 +253,17 @@ impl Swapchain {
         let before_clear = barrier(vk::ImageLayout::UNDEFINED, vk::AccessFlags::empty());
         let before_copy = barrier(LAYOUT, vk::AccessFlags::TRANSFER_WRITE);
         let color = vk::ClearColorValue { float32: background };
-        let copied = picture.image().and_then(|image| Some((image, copy_region(image.extent(), self.extent, corner)?)));
+        let copied = pictures.iter().filter_map(|(picture, columns)| {
+            let image = picture.image()?;
+            Some((image, copy_region(image.extent(), columns, self.extent, corner)?))
+        });
         let none = vk::DependencyFlags::empty();
-        // SAFETY: the command buffer is being recorded; both images are alive, in these layouts, and the region lies
-        // within both.
+        // SAFETY: the command buffer is being recorded; all images are alive, in these layouts, and each region lies
+        // within both of its images. Regions may overlap: a barrier stands before each.
         unsafe {
             raw.cmd_pipeline_barrier(recorder.buffer, transfer, transfer, none, &[], &[], &before_clear);
             raw.cmd_clear_color_image(recorder.buffer, target, LAYOUT, &color, &[COLOR]);
-            if let Some((image, region)) = copied {
+            for (image, region) in copied {
                 raw.cmd_pipeline_barrier(recorder.buffer, transfer, transfer, none, &[], &[], &before_copy);
                 raw.cmd_blit_image(
                     recorder.buffer,
@@ -289,17 +295,17 @@ impl Swapchain {
 }
 
 impl WindowImage<'_> {
-    /// Records the filling of the image: `background`, upon it the picture, each of its pixels on one of the window's
-    /// from `corner` on, upon that what `draw_widgets` draws.
+    /// Records the filling of the image: `background`, upon it these columns of each picture, each pixel on one of the
+    /// window's, the pictures' first at `corner`, upon that what `draw_widgets` draws.
     pub fn fill(
         self,
         recorder: &mut Recorder,
         background: [f32; 4],
-        picture: &Resource,
+        pictures: &[(&Resource, Range<u32>)],
         corner: [u32; 2],
         draw_widgets: impl FnOnce(vk::CommandBuffer),
     ) -> Result<Filled, GpuError> {
-        self.swapchain.record(recorder, self.image, background, picture, corner, draw_widgets)?;
+        self.swapchain.record(recorder, self.image, background, pictures, corner, draw_widgets)?;
         Ok(Filled(()))
     }
 }

@@ -1,5 +1,7 @@
 //! What to take of what a window offers, and what of a picture it has room for. Pure.
 
+use std::ops::Range;
+
 use ash::vk;
 
 /// Whether the window still goes with its swapchain.
@@ -73,9 +75,16 @@ pub(super) fn choose_alpha(supported: vk::CompositeAlphaFlagsKHR) -> vk::Composi
     wanted.into_iter().find(|alpha| supported.contains(*alpha)).unwrap_or(vk::CompositeAlphaFlagsKHR::OPAQUE)
 }
 
-/// The part of a picture that lies inside the window when its corner is put at `corner`; `None` where none does.
-pub(super) fn copy_region(picture: vk::Extent2D, window: vk::Extent2D, corner: [u32; 2]) -> Option<vk::ImageBlit> {
-    let width = picture.width.min(window.width.saturating_sub(corner[0]));
+/// The part of these columns of a picture that lies inside the window when the picture's corner is put at `corner`;
+/// `None` where none does.
+pub(super) fn copy_region(
+    picture: vk::Extent2D,
+    columns: &Range<u32>,
+    window: vk::Extent2D,
+    corner: [u32; 2],
+) -> Option<vk::ImageBlit> {
+    let end = columns.end.min(picture.width).min(window.width.saturating_sub(corner[0]));
+    let width = end.saturating_sub(columns.start);
     let height = picture.height.min(window.height.saturating_sub(corner[1]));
     if width == 0 || height == 0 {
         return None;
@@ -93,9 +102,9 @@ pub(super) fn copy_region(picture: vk::Extent2D, window: vk::Extent2D, corner: [
     Some(
         vk::ImageBlit::default()
             .src_subresource(layers)
-            .src_offsets(rectangle(0, 0))
+            .src_offsets(rectangle(columns.start, 0))
             .dst_subresource(layers)
-            .dst_offsets(rectangle(corner[0], corner[1])),
+            .dst_offsets(rectangle(corner[0] + columns.start, corner[1])),
     )
 }
 
@@ -148,9 +157,19 @@ mod tests {
 
     #[test]
     fn a_picture_is_cut_at_the_windows_edge() {
-        let region = copy_region(extent(100, 50), extent(80, 200), [10, 20]).unwrap();
+        let region = copy_region(extent(100, 50), &(0..u32::MAX), extent(80, 200), [10, 20]).unwrap();
         assert_eq!((region.src_offsets[1].x, region.src_offsets[1].y), (70, 50));
         assert_eq!((region.dst_offsets[0].x, region.dst_offsets[1].y), (10, 70));
-        assert!(copy_region(extent(100, 50), extent(80, 200), [80, 0]).is_none());
+        assert!(copy_region(extent(100, 50), &(0..u32::MAX), extent(80, 200), [80, 0]).is_none());
+    }
+
+    #[test]
+    fn columns_of_a_picture_stay_in_their_place() {
+        let region = copy_region(extent(100, 50), &(30..100), extent(80, 200), [10, 20]).unwrap();
+        assert_eq!((region.src_offsets[0].x, region.src_offsets[1].x), (30, 70));
+        assert_eq!((region.dst_offsets[0].x, region.dst_offsets[1].x), (40, 80));
+        for none in [70..100, 40..40, 100..200] {
+            assert!(copy_region(extent(100, 50), &none, extent(80, 200), [10, 20]).is_none(), "{none:?}");
+        }
     }
 }

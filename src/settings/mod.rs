@@ -11,14 +11,11 @@ use serde::Serialize;
 
 pub use file::SettingsError;
 pub use numbers::Numbers;
-use sampling::Sampling;
+use sampling::{Sampling, most_samples};
 pub use shading::Shading;
 
 use crate::algorithm::{Algorithm, Description, Precision};
 use crate::scene::DEPTH_LIMIT;
-
-/// Most samples of a pixel by path tracing, whose index has 32 bits.
-pub const MAX_PATH_SAMPLES: u32 = 1 << 30;
 
 /// How a picture is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -79,8 +76,7 @@ pub struct Contradiction {
 }
 
 impl RenderSettings {
-    /// `samples` and `scale` together; whether they are possible is for [`RenderSettings::check`]. Not of path tracing,
-    /// whose samples are of another kind.
+    /// `samples` and `scale` together; whether they are possible is for [`RenderSettings::check`].
     pub fn sampling(&self) -> Sampling {
         Sampling { samples: self.samples, scale: self.scale }
     }
@@ -124,19 +120,15 @@ impl RenderSettings {
                 return refuse(field, format!("{field} is for the {others} algorithm, not for {name}"));
             }
         }
-        if row.is_statistical && !(1..=MAX_PATH_SAMPLES).contains(&samples) {
-            let what = format!("a pixel of the {name} algorithm has 1 to {MAX_PATH_SAMPLES} samples, not {samples}");
-            return refuse("samples", what);
-        }
         // One after the other, so that the field at fault is known.
         let plain = Sampling::PLAIN;
-        let of_places = Sampling { samples: if row.is_statistical { 1 } else { samples }, ..plain };
-        for (field, sampling) in [("samples", of_places), ("scale", Sampling { scale, ..plain })] {
-            if let Err(error) = sampling.check() {
+        let can_several = |field: &str, row: &Description| row.samples || (field == "samples" && row.is_statistical);
+        for (field, sampling) in [("samples", Sampling { samples, ..plain }), ("scale", Sampling { scale, ..plain })] {
+            if let Err(error) = sampling.check(most_samples(row)) {
                 return refuse(field, error);
             }
-            if sampling != plain && !algorithm.description().samples {
-                let others = Algorithm::names(|other| other.samples);
+            if sampling != plain && !can_several(field, row) {
+                let others = Algorithm::names(|other| can_several(field, other));
                 return refuse(field, format!("{field} is for the {others} algorithm, not for {name}"));
             }
         }

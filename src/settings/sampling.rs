@@ -10,6 +10,8 @@
 //! 3/k)·u·M, and the later steps leave k/n of it: after n samples the mean is off by at most ((n + 1)/2 + 3)·u·M, to
 //! first order.
 
+use crate::algorithm::Description;
+
 /// Sub-pixels along each side of a pixel: a sample's ray is that of a pixel of a picture so many times as wide and
 /// high. Odd, so that the central one's ray is the pixel's own.
 pub const SUBPIXELS: u32 = 65;
@@ -96,6 +98,14 @@ const PLACES: [[u8; 2]; 64] = [
     [44, 64],
 ];
 
+/// Most samples of a pixel by path tracing, whose index has 32 bits.
+pub const MAX_PATH_SAMPLES: u32 = 1 << 30;
+
+/// Most samples of a pixel by an algorithm that can take several.
+pub fn most_samples(algorithm: &Description) -> u32 {
+    if algorithm.is_statistical { MAX_PATH_SAMPLES } else { MAX_SAMPLES }
+}
+
 /// How finely a picture is traced.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sampling {
@@ -110,11 +120,11 @@ impl Sampling {
     pub const PLAIN: Self = Self { samples: 1, scale: 1.0 };
 
     /// # Errors
-    /// It is not within the limits: how, in a line.
-    pub fn check(self) -> Result<(), String> {
+    /// It is not within the limits: how, in a line. A pixel has at most so many samples, see [`most_samples`].
+    pub fn check(self, most_samples: u32) -> Result<(), String> {
         let Self { samples, scale } = self;
-        if !(1..=MAX_SAMPLES).contains(&samples) {
-            return Err(format!("a pixel has 1 to {MAX_SAMPLES} samples, not {samples}"));
+        if !(1..=most_samples).contains(&samples) {
+            return Err(format!("a pixel has 1 to {most_samples} samples, not {samples}"));
         }
         if !(MIN_SCALE..=1.0).contains(&scale) {
             return Err(format!("the render scale is {MIN_SCALE} to 1, not {scale}"));
@@ -194,11 +204,11 @@ mod tests {
     #[test]
     fn what_is_out_of_range_is_refused_in_one_line() {
         for (samples, scale) in [(0, 1.0), (65, 1.0), (1, 0.2), (1, 1.01), (1, f64::NAN)] {
-            let error = Sampling { samples, scale }.check().unwrap_err();
+            let error = Sampling { samples, scale }.check(MAX_SAMPLES).unwrap_err();
             assert!(!error.is_empty() && !error.contains('\n'), "{error}");
         }
         for (samples, scale) in [(1, 1.0), (64, 0.25)] {
-            assert!(Sampling { samples, scale }.check().is_ok());
+            assert!(Sampling { samples, scale }.check(MAX_SAMPLES).is_ok());
         }
     }
 }

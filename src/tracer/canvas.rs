@@ -17,7 +17,7 @@ use super::{Kernel, Settings, TracerError};
 use crate::gpu::{Builds, Device, GpuError, InFlight, Recorder, Resource, Use};
 use crate::plan::WORKGROUP;
 use crate::scene::Scene;
-use crate::settings::sampling::Sampling;
+use crate::settings::sampling::{Sampling, most_samples};
 use images::{Image, images};
 pub use timing::Finished;
 use timing::{Chunk, Timing};
@@ -128,9 +128,10 @@ impl Canvas {
     /// [asked for](Canvas::show) again.
     ///
     /// # Errors
-    /// They are not within the limits.
+    /// They are not within the kernel's limits.
     pub fn set_sampling(&mut self, in_flight: &mut InFlight, sampling: Sampling) -> Result<bool, TracerError> {
-        sampling.check().map_err(TracerError::Refused)?;
+        let most_samples = most_samples(self.renderer.kernel().description());
+        sampling.check(most_samples).map_err(TracerError::Refused)?;
         if sampling == self.sampling {
             return Ok(false);
         }
@@ -228,6 +229,16 @@ impl Canvas {
         !self.renderer.has_next() && self.sweep.left() == 0 && !self.lacks_samples()
     }
 
+    /// Samples of each pixel that are traced or being traced.
+    pub fn samples(&self) -> u32 {
+        if self.renderer.samples().is_some() { self.sample + 1 } else { 0 }
+    }
+
+    /// Samples that each pixel of the picture shown has, where all have as many.
+    pub fn whole_samples(&self) -> Option<u32> {
+        (!self.renderer.has_next() && self.sweep.left() == 0).then_some(self.sample + 1)
+    }
+
     /// Whether samples are to come of the picture shown, after the one being traced.
     fn lacks_samples(&self) -> bool {
         self.renderer.samples().is_some_and(|samples| self.sample + 1 < samples)
@@ -262,8 +273,17 @@ impl Canvas {
         self.timing.collect(place)
     }
 
+    /// Everything that it has on the device is used no more.
+    pub fn retire(mut self, in_flight: &mut InFlight) -> Result<(), GpuError> {
+        in_flight.wait_for_all()?;
+        let images = self.images.iter().map(|image| image.resource.clone());
+        self.dropped.extend(images.chain(self.pixels.take()).chain(self.upscaling.map(|upscaling| upscaling.picture)));
+        self.dropped.iter().for_each(|dropped| in_flight.forget(dropped));
+        Ok(())
+    }
+
     /// Collects what is in flight, in its order, before a submission of another kind takes a slot of the ring.
-    fn collect_all(&mut self, in_flight: &mut InFlight) -> Result<(), GpuError> {
+    pub fn collect_all(&mut self, in_flight: &mut InFlight) -> Result<(), GpuError> {
         in_flight.wait_for_all()?;
         in_flight.places().into_iter().try_for_each(|place| self.collect(place))
     }

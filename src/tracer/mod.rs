@@ -29,6 +29,7 @@ use crate::frame::{Frame, FrameError};
 use crate::gpu::{BindingSet, Builds, Commands, Device, DeviceDescription, GpuError, Recorder, Texel, Timer, Use};
 use crate::plan::Limits;
 use crate::scene::Scene;
+use crate::settings::sampling::most_samples;
 use renderer::{MadeFor, Renderer, Run, Sample, renderer};
 use target::Target;
 use tiles::Tile;
@@ -310,7 +311,8 @@ fn bring(
     scene: &Scene,
     settings: &Settings,
 ) -> Result<(), TracerError> {
-    settings.sampling().check().map_err(TracerError::Refused)?;
+    let most_samples = most_samples(settings.kernel.description());
+    settings.sampling().check(most_samples).map_err(TracerError::Refused)?;
     renderer.prepare(scene, settings, true)?;
     Ok(commands.run(|recorder| renderer.take_up(recorder).map(drop))?)
 }

@@ -94,6 +94,10 @@ pub enum Action {
     SetPreferences(Preferences),
     /// Draws from now on and, but for a settings' file, at the start of the next run.
     SetKernel(Kernel),
+    /// Draws the picture's right side from now on; `None`: there is but one picture.
+    SetBeside(Option<Kernel>),
+    /// Share of the picture's width that is the left side's; brought into 0 to 1.
+    MoveDivider(f64),
     /// Sampling of the accurate kernel.
     SetSampling(Sampling),
     /// How much of the light model is drawn, but by the course's kernel and a settings' file.

@@ -226,7 +226,7 @@ impl<'d> PictureWindow<'d> {
         canvas.collect(place)?;
         let fit = match swapchain.acquire(in_flight)? {
             Ok(image) => swapchain.show(in_flight, image, |recorder, image| {
-                image.fill(recorder, [0.0; 4], canvas.picture(), [0, 0], |_| {})
+                image.fill(recorder, [0.0; 4], &[(canvas.picture(), 0..u32::MAX)], [0, 0], |_| {})
             })?,
             Err(fit) => Err(fit),
         };

@@ -8,7 +8,7 @@ use directories::ProjectDirs;
 use serde::{Deserialize, Serialize};
 
 use super::own_kernel::OwnKernel;
-use crate::settings::sampling::MAX_SAMPLES;
+use crate::settings::sampling::{MAX_PATH_SAMPLES, MAX_SAMPLES};
 use crate::whole_file::WholeFile;
 
 /// Bytes read of the file at most: a few hundred are enough, and a file gone wrong may have any size.
@@ -75,6 +75,8 @@ pub struct Preferences {
     /// Samples of each pixel by the accurate kernels, at most: so many there are once nothing has changed for long
     /// enough.
     pub samples: u32,
+    /// The same by path tracing.
+    pub path_samples: u32,
 }
 
 impl Default for Preferences {
@@ -92,6 +94,8 @@ impl Default for Preferences {
             kernel: OwnKernel::ACCURATE,
             // Edges look smooth, and a picture at rest is soon done.
             samples: 16,
+            // Noise is hard to see, and a picture that nobody looks at does not heat the room for long.
+            path_samples: 1024,
         }
     }
 }
@@ -125,6 +129,7 @@ impl Preferences {
                 .unwrap_or(default.fly_speed)
                 .clamp(0.01, 1000.0),
             samples: self.samples.clamp(1, MAX_SAMPLES),
+            path_samples: self.path_samples.clamp(1, MAX_PATH_SAMPLES),
             ..self
         }
     }
@@ -157,6 +162,7 @@ mod tests {
             waits_for_display: false,
             kernel: OwnKernel::COURSE,
             samples: 7,
+            path_samples: 100_000,
         }
     }
 
@@ -213,12 +219,14 @@ mod tests {
 
     #[test]
     fn numbers_out_of_range_are_brought_into_it() {
-        let text = "ui_scale = 1e300\nfly_speed = -3.0\nwindow_size = [1, 4000000000]\nsamples = 1000";
+        let text = "ui_scale = 1e300\nfly_speed = -3.0\nwindow_size = [1, 4000000000]\nsamples = 1000\n\
+                    path_samples = 0";
         let expected = Preferences {
             ui_scale: 1.0,
             fly_speed: 0.01,
             window_size: [320, 16384],
             samples: 64,
+            path_samples: 1,
             ..Preferences::default()
         };
         assert_eq!(Preferences::of_text(text), expected);

@@ -1,12 +1,14 @@
 //! The window's picture and widgets on the device: everything that is lost with it, and nothing else.
 
 use std::io;
+use std::ops::Range;
 use std::sync::Arc;
 
 use egui::epaint::ImageDelta;
 use egui::{ClippedPrimitive, TextureId};
 use egui_ash_renderer::{Options, RenderMode, Renderer, RendererError};
 
+use crate::frame::Frame;
 use crate::gpu::{
     Builds, Device, Fit, GpuError, InFlight, Instance, Semaphores, Surface, SurfaceTarget, Swapchain, WidgetMemory,
 };
@@ -52,11 +54,12 @@ pub struct Widgets {
     pub pixels_per_point: f32,
 }
 
-/// A device with a window's swapchain, what draws the widgets, and the canvas.
+/// A device with a window's swapchain, what draws the widgets, and the canvases.
 ///
 /// The fields are dropped in this order.
 pub struct Screen {
-    pub canvas: Canvas,
+    /// One of the whole picture, or one of each of its sides, from the left; never empty.
+    pub canvases: Vec<Canvas>,
     painter: Option<Painter>,
     swapchain: Option<Swapchain>,
     pub in_flight: InFlight,
@@ -87,8 +90,7 @@ impl Screen {
         let surface = Arc::new(Surface::new(instance, &target)?);
         let device = Device::open_for(&surface, wanted)?;
         Ok(Self {
-            // Nothing is compiled for it yet; the first picture may be asked for by another.
-            canvas: Canvas::new(&device, Kernel::Whitted(Precision::F32), builds, [1, 1])?,
+            canvases: vec![Canvas::new(&device, FIRST_KERNEL, builds, [1, 1])?],
             painter: None,
             swapchain: None,
             in_flight: InFlight::new(&device, "window")?,
@@ -102,6 +104,41 @@ impl Screen {
 
     pub fn device(&self) -> &Device {
         &self.device
+    }
+
+    /// What the kernels are made from.
+    pub fn builds(&self) -> Builds {
+        self.canvases.first().map(|canvas| canvas.builds().clone()).unwrap_or_default()
+    }
+
+    /// So many canvases, one at least.
+    pub fn set_sides(&mut self, count: usize) -> Result<(), TracerError> {
+        while self.canvases.len() > count.max(1)
+            && let Some(canvas) = self.canvases.pop()
+        {
+            canvas.retire(&mut self.in_flight)?;
+        }
+        while self.canvases.len() < count {
+            self.canvases.push(Canvas::new(&self.device, FIRST_KERNEL, &self.builds(), [1, 1])?);
+        }
+        Ok(())
+    }
+
+    /// Whether submissions are still needed for what is asked for.
+    pub fn is_tracing(&self) -> bool {
+        self.canvases.iter().any(Canvas::is_tracing)
+    }
+
+    /// The picture of a side, as it is now.
+    pub fn read_back(&mut self, side: usize) -> Result<Frame, TracerError> {
+        self.canvases.iter_mut().try_for_each(|canvas| canvas.collect_all(&mut self.in_flight))?;
+        self.canvases[side].read_back(&mut self.in_flight)
+    }
+
+    /// Shows a picture traced elsewhere on a side.
+    pub fn put(&mut self, side: usize, frame: &Frame) -> Result<(), TracerError> {
+        self.canvases.iter_mut().try_for_each(|canvas| canvas.collect_all(&mut self.in_flight))?;
+        self.canvases[side].put(&mut self.in_flight, frame)
     }
 
     /// Before the next frame the swapchain is made anew: the window has another size, or shows pictures otherwise.
@@ -136,23 +173,24 @@ impl Screen {
 
     /// Traces a chunk, if there is one, and shows nothing.
     pub fn trace(&mut self) -> Result<(), ScreenError> {
-        let place = self.in_flight.wait_for_place()?;
-        self.canvas.collect(place)?;
-        self.canvas.forget_dropped(&mut self.in_flight);
-        let canvas = &mut self.canvas;
+        let place = ready_place(&mut self.canvases, &mut self.in_flight)?;
+        let canvas = next_to_trace(&mut self.canvases);
         Ok(self.in_flight.submit(Semaphores::default(), |recorder| canvas.record(recorder, place))?)
     }
 
     /// Traces a chunk, if there is one, and shows picture and widgets; `false` where the window had no image for them.
-    /// The picture's corner is at `corner`, pixels. [`Screen::prepare`] must have said that there is something to be
-    /// seen.
-    pub fn show(&mut self, widgets: &mut Widgets, background: [f32; 4], corner: [u32; 2]) -> Result<bool, ScreenError> {
+    /// The picture's corner is at `corner`, pixels; `columns` of it are each canvas's. [`Screen::prepare`] must have said
+    /// that there is something to be seen.
+    pub fn show(
+        &mut self,
+        widgets: &mut Widgets,
+        background: [f32; 4],
+        corner: [u32; 2],
+        columns: &[Range<u32>],
+    ) -> Result<bool, ScreenError> {
         let (Some(swapchain), Some(painter)) = (&mut self.swapchain, &mut self.painter) else { return Ok(false) };
         painter.take_textures(&self.device, &mut self.in_flight, widgets)?;
-        let place = self.in_flight.wait_for_place()?;
-        self.canvas.collect(place)?;
-        self.canvas.forget_dropped(&mut self.in_flight);
-
+        let place = ready_place(&mut self.canvases, &mut self.in_flight)?;
         let image = match swapchain.acquire(&mut self.in_flight)? {
             Ok(image) => image,
             Err(fit) => {
@@ -162,11 +200,12 @@ impl Screen {
         };
         let mut failed = None;
         let extent = swapchain.extent();
-        let canvas = &mut self.canvas;
+        let canvases = &mut self.canvases;
         let presented = swapchain.show(&mut self.in_flight, image, |recorder, image| {
-            canvas.record(recorder, place)?;
-            canvas.upscale(recorder);
-            image.fill(recorder, background, canvas.picture(), corner, |commands| {
+            next_to_trace(canvases).record(recorder, place)?;
+            canvases.iter_mut().for_each(|canvas| canvas.upscale(recorder));
+            let pictures = canvases.iter().map(Canvas::picture).zip(columns.iter().cloned());
+            image.fill(recorder, background, &pictures.collect::<Vec<_>>(), corner, |commands| {
                 let drawn = painter.renderer.cmd_draw(commands, extent, widgets.pixels_per_point, &widgets.primitives);
                 failed = drawn.err();
             })
@@ -203,6 +242,26 @@ impl Screen {
         self.is_outdated = true;
         Ok(())
     }
+}
+
+/// Nothing is compiled for it before a picture is asked for, which may be by another.
+const FIRST_KERNEL: Kernel = Kernel::Whitted(Precision::F32);
+
+/// A slot of the ring that is free, and what was submitted from it collected.
+fn ready_place(canvases: &mut [Canvas], in_flight: &mut InFlight) -> Result<usize, GpuError> {
+    let place = in_flight.wait_for_place()?;
+    for canvas in canvases {
+        canvas.collect(place)?;
+        canvas.forget_dropped(in_flight);
+    }
+    Ok(place)
+}
+
+/// The canvas whose chunk is due: every side is to be whole before any is refined.
+fn next_to_trace(canvases: &mut [Canvas]) -> &mut Canvas {
+    let next = canvases.iter().position(|canvas| !canvas.is_whole());
+    let next = next.or_else(|| canvases.iter().position(|canvas| !canvas.is_finished()));
+    &mut canvases[next.unwrap_or(0)]
 }
 
 impl Drop for Screen {

@@ -25,8 +25,12 @@ pub struct State {
     pub document: Document,
     /// To be kept for the next run.
     pub preferences: Preferences,
-    /// What draws the picture now, which need not be the usual one.
+    /// What draws the picture now, or its left side, which need not be the usual one.
     pub kernel: Kernel,
+    /// What draws its right side, where two stand beside each other.
+    pub beside: Option<Kernel>,
+    /// Where the divider stands between them: share of the picture's width, 0 to 1.
+    pub divider: f64,
     /// Scale of the accurate kernels: size of the traced picture against the one shown.
     scale: f64,
     /// Shading model of the accurate model; see [`State::shading`].
@@ -64,6 +68,8 @@ impl State {
         Self {
             document,
             kernel: Kernel::Own(preferences.kernel),
+            beside: None,
+            divider: 0.5,
             preferences,
             scale: Sampling::PLAIN.scale,
             setting: None,
@@ -87,14 +93,19 @@ impl State {
         Self { shading, ..self }
     }
 
-    /// How much of the light model is drawn of it.
-    pub fn shading(&self) -> Shading {
-        if self.kernel.is_chosen_in_panel() { self.shading } else { self.kernel.settings().shading }
+    /// What draws, from the left.
+    pub fn kernels(&self) -> impl Iterator<Item = Kernel> + use<> {
+        [self.kernel].into_iter().chain(self.beside)
     }
 
-    /// The scene as it is drawn: by [`Self::shading`].
-    pub fn shaded_scene(&self) -> Cow<'_, Scene> {
-        self.shading().applied(self.document.scene())
+    /// How much of the light model a kernel draws.
+    pub fn shading_by(&self, kernel: Kernel) -> Shading {
+        if kernel.is_chosen_in_panel() { self.shading } else { kernel.settings().shading }
+    }
+
+    /// The scene as a kernel draws it: by [`Self::shading_by`].
+    pub fn shaded_scene(&self, kernel: Kernel) -> Cow<'_, Scene> {
+        self.shading_by(kernel).applied(self.document.scene())
     }
 
     /// How finely the accurate kernels trace once nothing changes.
@@ -102,10 +113,16 @@ impl State {
         Sampling { samples: self.preferences.samples, scale: self.scale }
     }
 
-    /// How finely the kernel that draws traces; those other than the accurate one know but one way.
-    pub fn sampling(&self) -> Sampling {
-        let is_of_panel = self.kernel.is_chosen_in_panel() && self.kernel.description().samples;
-        if is_of_panel { self.accurate_sampling() } else { self.kernel.settings().sampling() }
+    /// How finely a kernel traces; those that take no samples know but one way.
+    pub fn sampling(&self, kernel: Kernel) -> Sampling {
+        let row = kernel.description();
+        match kernel {
+            Kernel::Own(_) if row.samples => self.accurate_sampling(),
+            Kernel::Own(_) if row.is_statistical => {
+                Sampling { samples: self.preferences.path_samples, ..Sampling::PLAIN }
+            }
+            _ => kernel.settings().sampling(),
+        }
     }
 
     /// Does what is asked and returns what is left to do outside the state.
@@ -140,12 +157,19 @@ impl State {
     /// What the dialog leaves to be asked.
     fn takes(&self, action: &Action) -> bool {
         use Action::{
-            AnswerRecover, AnswerUnsaved, CloseDialog, OpenFile, Quit, SaveTo, ScreenshotTo, SetContinuous, SetKernel,
-            SetPreferences, SetSampling, SetShading, ShowHelp,
+            AnswerRecover, AnswerUnsaved, CloseDialog, MoveDivider, OpenFile, Quit, SaveTo, ScreenshotTo, SetBeside,
+            SetContinuous, SetKernel, SetPreferences, SetSampling, SetShading, ShowHelp,
         };
         let is_window_setting = matches!(
             action,
-            SetPreferences(_) | SetKernel(_) | SetSampling(_) | SetShading(_) | SetContinuous(_) | ShowHelp(_)
+            SetPreferences(_)
+                | SetKernel(_)
+                | SetBeside(_)
+                | MoveDivider(_)
+                | SetSampling(_)
+                | SetShading(_)
+                | SetContinuous(_)
+                | ShowHelp(_)
         );
         let is_answer = match &self.dialog {
             None => true,
@@ -209,6 +233,8 @@ impl State {
 
             Action::SetPreferences(preferences) => self.preferences = preferences.clamped(),
             Action::SetKernel(kernel) => self.set_kernel(kernel),
+            Action::SetBeside(kernel) => self.beside = kernel,
+            Action::MoveDivider(share) => self.divider = share.clamp(0.0, 1.0),
             Action::SetShading(shading) => self.shading = shading,
             Action::SetSampling(Sampling { samples, scale }) => {
                 (self.preferences.samples, self.scale) = (samples, scale);

@@ -5,6 +5,7 @@
 mod english;
 mod russian;
 
+use super::action::Kernel;
 use super::own_kernel::OwnKernel;
 use super::preferences::Language;
 use super::state::{FilePurpose, Message};
@@ -31,6 +32,10 @@ pub struct Words {
 
     pub(super) status_untitled: &'static str,
     pub(super) status_unsaved: &'static str,
+    pub(super) status_samples: &'static str,
+    /// Before the estimated error of a picture by path tracing.
+    pub(super) status_error: &'static str,
+    pub(super) status_error_hint: &'static str,
     pub(super) refusal_title: &'static str,
     /// Over why the picture is not right.
     pub(super) too_coarse_title: &'static str,
@@ -155,6 +160,17 @@ pub(super) struct GroupWords {
     pub(super) kernel_accurate_f32_hint: &'static str,
     pub(super) kernel_accurate_f64: &'static str,
     pub(super) kernel_accurate_f64_hint: &'static str,
+    pub(super) kernel_ssr: &'static str,
+    pub(super) kernel_ssr_hint: &'static str,
+    pub(super) kernel_path: &'static str,
+    pub(super) kernel_path_hint: &'static str,
+    /// Of the list of what draws the picture's right side.
+    pub(super) beside: &'static str,
+    pub(super) beside_hint: &'static str,
+    /// In that list, where there is but one picture.
+    pub(super) beside_nothing: &'static str,
+    /// What is between the sides.
+    pub(super) divider: &'static str,
     pub(super) shading: &'static str,
     pub(super) shading_lambert: &'static str,
     pub(super) shading_phong: &'static str,
@@ -164,6 +180,8 @@ pub(super) struct GroupWords {
     pub(super) kernel_by_setting: &'static str,
     pub(super) samples: &'static str,
     pub(super) samples_hint: &'static str,
+    pub(super) path_samples: &'static str,
+    pub(super) path_samples_hint: &'static str,
     pub(super) scale: &'static str,
     pub(super) scale_hint: &'static str,
     pub(super) reset_camera: &'static str,
@@ -191,7 +209,9 @@ impl GroupWords {
                 Some([self.kernel_accurate_f64, self.kernel_accurate_f64_hint])
             }
             (Algorithm::Reference, _) => Some([self.kernel_reference, self.kernel_reference_hint]),
-            (Algorithm::Plain | Algorithm::Ssr | Algorithm::Path, _) => None,
+            (Algorithm::Ssr, _) => Some([self.kernel_ssr, self.kernel_ssr_hint]),
+            (Algorithm::Path, None) => Some([self.kernel_path, self.kernel_path_hint]),
+            (Algorithm::Plain, _) | (Algorithm::Path, Some(_)) => None,
         }
     }
 }
@@ -304,6 +324,23 @@ impl Words {
     pub fn frames_per_second(&self, rate: Option<f64>) -> String {
         let rate = rate.filter(|rate| rate.is_finite() && *rate > 0.0);
         rate.map_or_else(|| NO_FIGURE.to_owned(), |rate| self.three_digits(rate))
+    }
+
+    /// Of what draws a picture, in a precision where that was chosen.
+    pub(super) fn kernel_name(&self, kernel: Kernel, precision: Option<Precision>) -> &'static str {
+        let words = match kernel {
+            Kernel::Own(kernel) => {
+                let exact = OwnKernel { precision: precision.or(kernel.precision), ..kernel };
+                self.groups.kernel_words(exact).or_else(|| self.groups.kernel_words(kernel))
+            }
+            Kernel::BySetting(_) => Some([self.groups.kernel_by_setting, ""]),
+        };
+        words.map_or("", |[label, _]| label)
+    }
+
+    /// `0.00312`, to three significant digits.
+    pub(super) fn error(&self, error: f64) -> String {
+        self.three_digits(error)
     }
 
     fn three_digits(&self, value: f64) -> String {

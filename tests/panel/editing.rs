@@ -94,6 +94,11 @@ fn a_drag_is_one_step_back_and_so_is_each_typed_value() {
 }
 
 /// In both languages, and undone step by step.
+fn shading(window: &Window) -> Shading {
+    let state = &window.state().state;
+    state.shading_by(state.kernel)
+}
+
 #[test]
 fn glass_is_made_in_the_panel_and_undone() {
     for (language, add, material, n, index, own, light, fades, ambient, phong) in [
@@ -139,7 +144,7 @@ fn glass_is_made_in_the_panel_and_undone() {
         assert_eq!(scene(&window).lights[0].distance_constant, Some(2.0));
         assert_eq!(scene(&window).ambient_light.y, 0.5);
         click(&mut window, phong);
-        assert_eq!(window.state().state.shading(), Shading::Phong);
+        assert_eq!(shading(&window), Shading::Phong);
         while window.state().state.document.can_undo() {
             press(&mut window, Modifiers::COMMAND, Key::Z);
         }

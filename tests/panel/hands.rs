@@ -7,7 +7,7 @@ use zerkalo::scene::{Primitive, Scene};
 use zerkalo::viewer::action::{Action, Effect};
 use zerkalo::viewer::document::Document;
 use zerkalo::viewer::frame_times::FrameTimes;
-use zerkalo::viewer::panel::{Panel, Readings, style};
+use zerkalo::viewer::panel::{Panel, Paths, Readings, style};
 use zerkalo::viewer::preferences::{Language, Preferences};
 use zerkalo::viewer::state::State;
 
@@ -16,6 +16,7 @@ pub struct App {
     pub state: State,
     pub panel: Panel,
     pub frame_times: FrameTimes,
+    pub paths: Option<Paths>,
     pub refusal: Option<&'static str>,
     pub effects: Vec<Effect>,
     pub picture: Rect,
@@ -32,6 +33,7 @@ pub fn open_with(scene: Scene, language: Language) -> Window {
         state: State::new(Document::new(scene, None), preferences, None),
         panel: Panel::default(),
         frame_times: FrameTimes::default(),
+        paths: None,
         refusal: None,
         effects: Vec::new(),
         picture: Rect::NOTHING,
@@ -50,6 +52,7 @@ pub fn draw(ui: &mut egui::Ui, app: &mut App) {
         picture_size: [960, 1440],
         frame_times: &app.frame_times,
         progress: Some(0.25),
+        paths: app.paths,
         refusal: app.refusal,
         shader_error: None,
         precision: None,

@@ -7,6 +7,7 @@ use zerkalo::settings::sampling::Sampling;
 use zerkalo::tracer::Precision;
 use zerkalo::viewer::action::{Action, Effect, Kernel};
 use zerkalo::viewer::own_kernel::OwnKernel;
+use zerkalo::viewer::panel::Paths;
 use zerkalo::viewer::preferences::{Language, Preferences, Theme};
 use zerkalo::viewer::state::{Dialog, FilePurpose};
 
@@ -84,6 +85,11 @@ fn camera_and_kernel_answer_to_their_widgets() {
     assert!(state.preferences.is_mouse_inverted && state.is_continuous);
 }
 
+fn sampling(window: &Window) -> Sampling {
+    let state = &window.state().state;
+    state.sampling(state.kernel)
+}
+
 #[test]
 fn samples_and_scale_are_set_where_the_kernel_has_them_and_stay_in_range() {
     let mut window = open(Language::English);
@@ -93,19 +99,63 @@ fn samples_and_scale_are_set_where_the_kernel_has_them_and_stay_in_range() {
     assert!(!is_enabled(&window, samples) && !is_enabled(&window, scale), "the course kernel knows but one way");
     click(&mut window, "Accurate f32 (Vulkan)");
     assert!(is_enabled(&window, samples) && is_enabled(&window, scale));
-    assert_eq!(window.state().state.sampling(), Sampling { samples: 16, scale: 1.0 }, "until told otherwise");
+    assert_eq!(sampling(&window), Sampling { samples: 16, scale: 1.0 }, "until told otherwise");
     for (typed, taken) in [("5", 5), ("0", 1), ("1000", 64), ("2.6", 3)] {
         type_into(&mut window, samples, typed);
-        assert_eq!(window.state().state.sampling().samples, taken, "{typed}");
+        assert_eq!(sampling(&window).samples, taken, "{typed}");
     }
     for (typed, taken) in [("0,5", 0.5), ("0", 0.25), ("7", 1.0), ("0.3", 0.3)] {
         type_into(&mut window, scale, typed);
-        assert_eq!(window.state().state.sampling(), Sampling { samples: 3, scale: taken }, "{typed}");
+        assert_eq!(sampling(&window), Sampling { samples: 3, scale: taken }, "{typed}");
     }
     click(&mut window, "Reference (CPU)");
-    assert_eq!(window.state().state.sampling(), Sampling::PLAIN);
+    assert_eq!(sampling(&window), Sampling::PLAIN);
     click(&mut window, "Accurate f64 (Vulkan)");
-    assert_eq!(window.state().state.sampling(), Sampling { samples: 3, scale: 0.3 });
+    assert_eq!(sampling(&window), Sampling { samples: 3, scale: 0.3 });
+}
+
+#[test]
+fn paths_have_a_number_of_their_own_and_are_told_with_their_error() {
+    let mut window = open(Language::English);
+    let paths = "Scene and camera: paths per pixel";
+    let is_enabled = |window: &Window, name: &str| !window.get_by_label(name).accesskit_node().is_disabled();
+    assert!(!is_enabled(&window, paths));
+    click(&mut window, "Path tracing (Vulkan)");
+    assert_eq!(sampling(&window), Sampling { samples: 1024, scale: 1.0 }, "until told otherwise");
+    for (typed, taken) in [("100000", 100_000), ("0", 1), ("1e12", 1 << 30)] {
+        type_into(&mut window, paths, typed);
+        assert_eq!(sampling(&window).samples, taken, "{typed}");
+    }
+    window.state_mut().paths = Some(Paths { so_far: 64, asked_for: 1024, error: None });
+    window.run();
+    assert!(is_there(&window, "64/1024 paths") && window.query_by_label_contains("error").is_none());
+    window.state_mut().paths = Some(Paths { so_far: 128, asked_for: 1024, error: Some(0.003_124) });
+    window.run();
+    assert!(is_there(&window, "128/1024 paths") && is_there(&window, "error ≈ 0.00312"));
+}
+
+#[test]
+fn a_second_kernel_is_chosen_from_a_list_and_the_divider_is_dragged() {
+    let mut window = open(Language::English);
+    assert!(!is_there(&window, "Divider"));
+    click(&mut window, "Scene and camera: Right of the divider");
+    click(&mut window, "Right of the divider: Reference (CPU)");
+    assert_eq!(window.state().state.beside, Some(Kernel::Own(OwnKernel::REFERENCE)));
+    for (share, taken) in [(0.25, 0.25), (-1.0, 0.0), (7.0, 1.0)] {
+        apply(&mut window, Action::MoveDivider(share));
+        assert_eq!(window.state().state.divider, taken);
+    }
+    apply(&mut window, Action::MoveDivider(0.5));
+    let (from, picture) = (window.get_by_label("Divider").rect().center(), window.state().picture);
+    let to = from + egui::vec2(picture.width() / 4.0, 0.0);
+    window.drag_at(from);
+    window.run();
+    window.hover_at(to);
+    window.run();
+    window.drop_at(to);
+    window.run();
+    let divider = window.state().state.divider;
+    assert!((divider - 0.75).abs() < 0.01, "{divider}");
 }
 
 #[test]

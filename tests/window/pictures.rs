@@ -178,6 +178,74 @@ fn a_screenshot_is_taken_while_picture_follows_picture() {
     window.close();
 }
 
+/// The same two programs' pictures as `render` makes of them; beside each other, each has its columns.
+#[test]
+fn all_algorithms_are_chosen_and_two_of_them_stand_side_by_side() {
+    let desk = Desk::new(Locale::English, [1100, 420]);
+    let mut window = desk.view(&["showcase"]);
+    window.click("Screen space (Vulkan)");
+    window.wait_until("screen space", |now| now.kernel == "ssr" && now.is_finished);
+    let size = window.settle().picture_size;
+    let ssr = window.screenshot("ssr.exr");
+    assert!(ssr == desk.render_by("ssr", "showcase", size));
+
+    // More than the samples at fixed places that other kernels have.
+    window.click("Path tracing (Vulkan)");
+    window.fill("Scene and camera: paths per pixel", 70.0);
+    let now = window.wait_until("path tracing", |now| now.kernel == "path f32" && now.is_finished);
+    assert!(now.says("70/70 paths"), "{}", now.in_short());
+    let is_estimate = |text: &str| text.strip_prefix("error ≈ ").is_some_and(|error| error.parse::<f64>().is_ok());
+    let is_told = now.widgets.iter().any(|widget| is_estimate(&widget.name) || is_estimate(&widget.value));
+    assert!(is_told, "{:?}", now.widgets);
+    let path = window.screenshot("path.exr");
+    let rendered = desk.render_with(&["--algorithm", "path", "--samples", "70"], "showcase", size);
+    // One sums in f32 from path to path, the other means of eight in f64: 70 steps of half a unit at most.
+    let most = |frame: &Frame| frame.pixels().iter().flatten().copied().fold(1.0, f32::max);
+    let bound = 70.0 * f32::EPSILON * most(&rendered);
+    for (pixel, rendered) in path.pixels().iter().flatten().zip(rendered.pixels().iter().flatten()) {
+        assert!((pixel - rendered).abs() <= bound, "{pixel} {rendered}");
+    }
+
+    window.click("Scene and camera: Right of the divider");
+    window.click("Right of the divider: Screen space (Vulkan)");
+    window.wait_until("both", |now| now.is_finished && now.says("Path tracing (Vulkan) | Screen space (Vulkan)"));
+    let divider = window.settle().find("Divider").expect("a divider").middle();
+    window.move_mouse(divider);
+    window.press(1);
+    // A hand is not so fast that all of it lies in one frame, of which egui looks only at the mouse's last position.
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    window.move_mouse([divider[0] - 60.0, divider[1]]);
+    window.wait_until("it follows the mouse", |now| {
+        now.find("Divider").is_some_and(|there| there.middle()[0] < divider[0] - 50.0)
+    });
+    window.release(1);
+    let now = window.settle();
+    assert_eq!(now.selection, None, "a drag of the divider is no click into the picture");
+    let column = now.find("Divider").unwrap().middle()[0] - f64::from(now.picture_corner[0]);
+    let both = window.screenshot("both.exr");
+    let parted = both.rows().zip(path.rows().zip(ssr.rows())).all(|(row, (left, right))| {
+        // Where the divider's middle is not known to the pixel, either may be.
+        let (near, far) = (column as usize - 2, column as usize + 2);
+        row[..near] == left[..near] && row[far..] == right[far..]
+    });
+    assert!(parted, "the left columns are one's, the right columns the other's");
+    window.click("Scene and camera: Right of the divider");
+    window.click("Right of the divider: nothing: one picture");
+    window.wait_until("one picture", |now| now.is_finished && now.find("Divider").is_none());
+    assert!(window.screenshot("path again.exr") == path);
+    window.close();
+}
+
+#[test]
+fn a_settings_file_may_ask_for_many_paths() {
+    let desk = Desk::new(Locale::Russian, [560, 300]);
+    std::fs::write(desk.path("paths.toml"), "kernel = \"path\"\nsamples = 100\n").unwrap();
+    let mut window = desk.view(&["four", "--settings", "paths.toml"]);
+    let now = window.wait_until("all of them", |now| now.is_finished);
+    assert!(now.says("100/100 путей"), "{}", now.in_short());
+    window.close();
+}
+
 /// What stands on the base of a cone of 10⁷: f32 has no shadows there.
 #[test]
 fn where_f32_is_too_coarse_f64_draws_and_f32_is_warned_of() {

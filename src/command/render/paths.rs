@@ -11,7 +11,8 @@ use crate::algorithm::Algorithm;
 use crate::command::interrupt::Listener;
 use crate::command::options::parse_positive;
 use crate::command::progress_bar;
-use crate::settings::{MAX_PATH_SAMPLES, Numbers};
+use crate::settings::Numbers;
+use crate::settings::sampling::MAX_PATH_SAMPLES;
 use crate::tracer::{Progressive, TracerError};
 
 /// Of a picture for which nothing is asked.

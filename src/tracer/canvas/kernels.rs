@@ -3,18 +3,19 @@
 use super::super::renderer::{MadeFor, renderer};
 use super::super::{Kernel, TracerError};
 use super::Canvas;
-use crate::gpu::Builds;
-use crate::gpu::Shader;
+use crate::gpu::{Builds, Shader};
+use crate::settings::sampling::most_samples;
 
 impl Canvas {
     /// A kernel from the next chunk on; returns whether it is another one; then the picture is to be
-    /// [asked for](Canvas::show) again.
+    /// [asked for](Canvas::show) again. A pixel has no more samples than it can take.
     pub fn use_kernel(&mut self, kernel: Kernel) -> Result<bool, TracerError> {
         if kernel == self.renderer.kernel() {
             return Ok(false);
         }
         self.renderer = renderer(&self.device, kernel, &self.builds, MadeFor::Live)?;
         self.dropped.extend(self.pixels.take());
+        self.sampling.samples = self.sampling.samples.min(most_samples(kernel.description()));
         self.begin_anew();
         Ok(true)
     }

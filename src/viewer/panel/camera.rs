@@ -2,7 +2,8 @@
 
 use egui::Ui;
 
-use super::fields::{RGB, Scale, check, choice, group, number, number_row, vector};
+use super::fields::{RGB, Scale, check, choice, group, name_widget, number, number_row, vector};
+use crate::algorithm::Description;
 use crate::scene::{DEPTH_LIMIT, Projection};
 use crate::settings::Shading;
 use crate::settings::sampling::{MAX_SAMPLES, MIN_SCALE, Sampling};
@@ -44,10 +45,20 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>
         }
         show_flight(ui, words, &state.preferences, actions);
         show_kernel(ui, words, state, actions);
-        let has_shading = state.kernel.is_chosen_in_panel();
-        ui.add_enabled_ui(has_shading, |ui| show_shading(ui, words, state.shading(), actions));
-        let has_sampling = has_shading && state.kernel.description().samples;
-        ui.add_enabled_ui(has_sampling, |ui| show_sampling(ui, words, state.accurate_sampling(), actions));
+        show_beside(ui, words, state, actions);
+        let is_any = |can: &dyn Fn(&Description) -> bool| {
+            state.kernels().any(|kernel| kernel.is_chosen_in_panel() && can(kernel.description()))
+        };
+        // By the kernel that it is chosen for, if there is one.
+        let shaded = state.kernels().find(|kernel| kernel.is_chosen_in_panel());
+        let shading = state.shading_by(shaded.unwrap_or(state.kernel));
+        ui.add_enabled_ui(shaded.is_some(), |ui| show_shading(ui, words, shading, actions));
+        ui.add_enabled_ui(is_any(&|row| row.samples), |ui| {
+            show_sampling(ui, words, state.accurate_sampling(), actions);
+        });
+        ui.add_enabled_ui(is_any(&|row| row.is_statistical), |ui| {
+            show_path_samples(ui, words, &state.preferences, actions);
+        });
     });
 }
 
@@ -86,6 +97,28 @@ fn show_kernel(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Acti
     });
 }
 
+/// What draws the picture's right side.
+fn show_beside(ui: &mut Ui, words: &Words, state: &State, actions: &mut Vec<Action>) {
+    let groups = &words.groups;
+    let offered = OwnKernel::all().filter(|kernel| groups.kernel_words(*kernel).is_some()).map(Kernel::Own);
+    let offered = offered.chain(state.setting.map(Kernel::BySetting)).map(Some);
+    let name = |kernel: Option<Kernel>| kernel.map_or(groups.beside_nothing, |kernel| words.kernel_name(kernel, None));
+    ui.label(groups.beside);
+    let list = egui::ComboBox::from_id_salt("beside").width(ui.available_width()).selected_text(name(state.beside));
+    let list = list.show_ui(ui, |ui| {
+        for kernel in [None].into_iter().chain(offered) {
+            // The kernels' own choices have these names already.
+            let response = ui.selectable_label(state.beside == kernel, name(kernel));
+            name_widget(&response, || format!("{}: {}", groups.beside, name(kernel)));
+            if response.clicked() {
+                actions.push(Action::SetBeside(kernel));
+            }
+        }
+    });
+    name_widget(&list.response, || format!("{}: {}", groups.camera, groups.beside));
+    list.response.on_hover_text(groups.beside_hint);
+}
+
 fn show_shading(ui: &mut Ui, words: &Words, now: Shading, actions: &mut Vec<Action>) {
     let groups = &words.groups;
     let choices = [
@@ -113,6 +146,16 @@ fn show_sampling(ui: &mut Ui, words: &Words, now: Sampling, actions: &mut Vec<Ac
     let samples = samples.inner.map(|samples| Sampling { samples: samples.round() as u32, ..now });
     actions.extend(samples.map(Action::SetSampling));
     actions.extend(scale.inner.map(|scale| Action::SetSampling(Sampling { scale, ..now })));
+}
+
+fn show_path_samples(ui: &mut Ui, words: &Words, now: &Preferences, actions: &mut Vec<Action>) {
+    let groups = &words.groups;
+    let samples = now.path_samples.into();
+    let samples = ui.horizontal(|ui| number(ui, groups.camera, groups.path_samples, samples, &Scale::PATHS));
+    samples.response.on_hover_text(groups.path_samples_hint);
+    // invariant: the scale keeps it in the range of `u32`.
+    let preferred = samples.inner.map(|samples| Preferences { path_samples: samples.round() as u32, ..now.clone() });
+    actions.extend(preferred.map(Action::SetPreferences));
 }
 
 fn show_flight(ui: &mut Ui, words: &Words, now: &Preferences, actions: &mut Vec<Action>) {

@@ -5,6 +5,8 @@ use std::ops::RangeInclusive;
 use egui::{DragValue, Key, Response, Ui};
 use glam::DVec3;
 
+use crate::settings::sampling::MAX_PATH_SAMPLES;
+
 /// What a number field accepts.
 pub struct Scale {
     typed: RangeInclusive<f64>,
@@ -40,6 +42,10 @@ impl Scale {
     pub const FIELD_OF_VIEW: Self = Self { typed: 0.001..=179.999, dragged: 1.0..=179.0, steps_per_unit: 2.0 };
     /// World units in a second.
     pub const SPEED: Self = Self { typed: 0.01..=1000.0, dragged: 0.5..=1000.0, steps_per_unit: 2.0 };
+
+    /// Paths of a pixel: more are typed than anyone would drag to.
+    pub const PATHS: Self =
+        Self { typed: 1.0..=MAX_PATH_SAMPLES as f64, dragged: 1.0..=65536.0, steps_per_unit: 1.0 / 64.0 };
 
     pub const fn new(range: RangeInclusive<f64>, steps_per_unit: f64) -> Self {
         Self { dragged: *range.start()..=*range.end(), typed: range, steps_per_unit }

@@ -5,6 +5,7 @@
 
 mod camera;
 mod dialogs;
+mod divider;
 mod faults;
 mod fields;
 mod file_dialog;
@@ -41,6 +42,8 @@ pub struct Readings<'a> {
     pub frame_times: &'a FrameTimes,
     /// Share of the picture that is traced, while it is not whole.
     pub progress: Option<f32>,
+    /// Of the picture by path tracing, or of the first of two.
+    pub paths: Option<Paths>,
     /// Why the kernel does not draw this scene, in one line; the last good picture stays.
     pub refusal: Option<&'a str>,
     /// Precision of the accurate kernel, where that draws.
@@ -49,6 +52,17 @@ pub struct Readings<'a> {
     pub warning: Option<&'a str>,
     /// A broken shader's compiler messages (`--watch`); the last good one draws.
     pub shader_error: Option<&'a str>,
+}
+
+/// How far a picture by path tracing has come.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Paths {
+    /// Of each pixel.
+    pub so_far: u32,
+    /// Of each pixel.
+    pub asked_for: u32,
+    /// Estimated root mean square error of linear colour, once there is an estimate.
+    pub error: Option<f64>,
 }
 
 /// What the widgets keep between two frames that is nobody else's business: half-typed names, angles not yet applied.
@@ -95,6 +109,7 @@ impl Panel {
             });
         });
         let picture = ui.available_rect_before_wrap();
+        divider::show(ui, picture, words, state, &mut actions);
         faults::show(ui, picture, words, readings);
         help::show(ui.ctx(), words, state.is_help_shown, &mut actions);
         self.dialogs.show(ui.ctx(), words, state, &mut actions);

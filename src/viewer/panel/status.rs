@@ -2,30 +2,35 @@
 
 use egui::Ui;
 
-use super::Readings;
-use crate::viewer::action::Kernel;
-use crate::viewer::own_kernel::OwnKernel;
+use super::{Paths, Readings};
 use crate::viewer::state::State;
 use crate::viewer::text::Words;
 
 pub fn show(ui: &mut Ui, words: &Words, state: &State, readings: &Readings) {
     let groups = &words.groups;
     let [width, height] = readings.picture_size;
-    let kernel = match state.kernel {
-        // In the precision that was chosen.
-        Kernel::Own(kernel) => groups.kernel_words(OwnKernel { precision: readings.precision, ..kernel }),
-        Kernel::BySetting(_) => Some([groups.kernel_by_setting, ""]),
+    let kernel = words.kernel_name(state.kernel, readings.precision);
+    let kernel = match state.beside {
+        Some(beside) => format!("{kernel} | {}", words.kernel_name(beside, None)),
+        None => kernel.to_owned(),
     };
-    let kernel = kernel.map_or("", |[label, _]| label);
     let rate = words.frames_per_second(readings.frame_times.frames_per_second());
     // One row, cut off where it ends: a bar that grew with its readings would take room from the picture, which would
     // be traced anew, and read otherwise again.
     ui.horizontal(|ui| {
         ui.set_height(ui.spacing().interact_size.y);
         file(ui, words, state);
-        for reading in [readings.device, &format!("{width}×{height}"), kernel, &format!("{rate} {}", groups.fps)] {
+        for reading in [readings.device, &format!("{width}×{height}"), &kernel, &format!("{rate} {}", groups.fps)] {
             ui.separator();
             ui.label(reading);
+        }
+        if let Some(Paths { so_far, asked_for, error }) = readings.paths {
+            ui.separator();
+            ui.label(format!("{so_far}/{asked_for} {}", words.status_samples));
+            if let Some(error) = error {
+                ui.label(format!("{} {}", words.status_error, words.error(error)))
+                    .on_hover_text(words.status_error_hint);
+            }
         }
         if let Some(progress) = readings.progress {
             const BAR_WIDTH: f32 = 90.0;

@@ -1,8 +1,10 @@
 //! One run of the window: what it knows, and what happens to it; [`picture`] has it traced, [`paint`] shows it.
 
+mod noise;
 mod paint;
 mod picture;
 mod precision;
+mod side;
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -14,7 +16,7 @@ use winit::event_loop::EventLoopProxy;
 use winit::keyboard::PhysicalKey;
 use winit::window::Window;
 
-use self::precision::Chosen;
+use self::side::Side;
 use super::action::{Action, Effect};
 use super::frame_times::FrameTimes;
 use super::observer::Observer;
@@ -22,7 +24,6 @@ use super::options::{Options, Wake};
 use super::panel::Panel;
 use super::picture_input::PictureInput;
 use super::recovery::Recovery;
-use super::reference_worker::ReferenceWorker;
 use super::screen::{Screen, ScreenError};
 #[cfg(debug_assertions)]
 use super::shader_watch::ShaderWatch;
@@ -50,15 +51,11 @@ pub(super) struct Session {
     frame_times: FrameTimes,
     /// When the widgets are to be drawn again.
     widgets_due: Option<Instant>,
-    refusal: Option<String>,
-    /// Choice for the accurate kernel; `None` where another draws.
-    chosen: Option<Chosen>,
-    /// Whether that is for the scene as it is, where it counts.
-    is_precision_known: bool,
+    /// As many as there are kernels that draw, once a picture was asked for.
+    sides: Vec<Side>,
     shader_error: Option<String>,
     #[cfg(debug_assertions)]
     shader_watch: Option<ShaderWatch>,
-    reference: Reference,
     screenshots: Vec<Screenshot>,
     observer: Option<Observer>,
     last_frame: Instant,
@@ -77,20 +74,11 @@ pub(super) struct Session {
     window: Arc<Window>,
 }
 
-/// The accurate picture, asked for and shown.
-#[derive(Default)]
-struct Reference {
-    worker: Option<ReferenceWorker>,
-    shown: Option<(Scene, [u32; 2])>,
-    /// Why there is no picture of this scene at this size.
-    failure: Option<(Scene, [u32; 2], String)>,
-}
-
 /// A screenshot that waits for the picture to be whole.
 struct Screenshot {
     path: PathBuf,
-    /// As it was drawn when it was asked for.
-    scene: Scene,
+    /// As each side drew it when it was asked for.
+    scenes: Vec<Scene>,
 }
 
 /// How often the device was lost.
@@ -139,13 +127,10 @@ impl Session {
             picture: egui::Rect::ZERO,
             frame_times: FrameTimes::default(),
             widgets_due: Some(Instant::now()),
-            refusal: None,
-            chosen: None,
-            is_precision_known: true,
+            sides: Vec::new(),
             shader_error: None,
             #[cfg(debug_assertions)]
             shader_watch: watch(&options, &proxy),
-            reference: Reference::default(),
             screenshots: Vec::new(),
             observer: options.is_observed.then(Observer::default),
             last_frame: Instant::now(),
@@ -300,7 +285,7 @@ impl Session {
             match effect {
                 Effect::Quit => self.is_quitting = true,
                 Effect::SaveScreenshot(path) => {
-                    self.screenshots.push(Screenshot { path, scene: self.state.shaded_scene().into_owned() });
+                    self.screenshots.push(Screenshot { path, scenes: self.drawn_scenes() });
                 }
             }
         }

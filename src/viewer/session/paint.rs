@@ -9,8 +9,9 @@ use super::super::panel::{Readings, Shown, style};
 use super::super::screen::{Screen, ScreenError, Widgets};
 use super::super::state::Dialog;
 use super::super::{camera_motion, highlight, preferences};
-use super::{Losses, NextFrame, Reference, Session, new_egui, open_screen};
+use super::{Losses, NextFrame, Session, new_egui, open_screen};
 use crate::gpu::GpuError;
+use crate::tracer::Canvas;
 
 /// A step of the camera while a key is held covers at most this, however long the frame before took.
 const LONGEST_STEP: Duration = Duration::from_millis(250);
@@ -32,11 +33,11 @@ impl Session {
                 self.keep_work();
                 self.losses = Losses { count: self.losses.count + 1, is_fresh: true };
                 // The window cannot serve two: the old one is gone before the new one is made.
-                let builds = self.screen.take().map(|screen| screen.canvas.builds().clone()).unwrap_or_default();
+                let builds = self.screen.take().map(|screen| screen.builds()).unwrap_or_default();
                 self.screen = Some(open_screen(&self.window, &self.state, &self.options, &builds, &self.messages)?);
                 // The new device has none of the textures that the old context has reported.
                 (self.context, self.egui) = new_egui(&self.window, self.options.is_observed);
-                self.reference = Reference::default();
+                self.sides.clear();
                 self.wake();
                 Ok(NextFrame::AtOnce)
             }
@@ -70,7 +71,8 @@ impl Session {
     fn is_only_tracing(&self) -> bool {
         let is_due = self.widgets_due.is_some_and(|due| due <= Instant::now());
         let is_worth_a_look = |screen: &Screen| {
-            screen.canvas.is_growing() && self.last_frame.elapsed() >= GROWING_PERIOD || !screen.canvas.is_tracing()
+            let is_growing = screen.canvases.iter().any(Canvas::is_growing);
+            is_growing && self.last_frame.elapsed() >= GROWING_PERIOD || !screen.is_tracing()
         };
         self.is_occluded || !is_due && !self.screen.as_ref().is_none_or(is_worth_a_look)
     }
@@ -79,6 +81,7 @@ impl Session {
         let stage_before = self.stage();
         let Some(screen) = &mut self.screen else { return Ok(()) };
         screen.trace()?;
+        self.estimate_noise()?;
         // While picture follows picture, the next one shows the last one's time.
         let has_news = self.take_times() && !self.state.is_continuous;
         if has_news || self.stage() != stage_before {
@@ -119,13 +122,16 @@ impl Session {
     /// Takes in the times of the pictures that came to their end; whether there were any.
     fn take_times(&mut self) -> bool {
         let Some(screen) = &mut self.screen else { return false };
-        let finished = screen.canvas.take_finished();
-        self.pictures_traced += finished.len() as u64;
+        let mut canvases = screen.canvases.iter_mut().map(Canvas::take_finished);
+        let finished = canvases.next().unwrap_or_default();
+        let beside = canvases.map(|finished| finished.len()).sum::<usize>();
+        self.pictures_traced += (finished.len() + beside) as u64;
         // How fast pictures follow each other: what is added to one at rest holds up none.
         let pictures = finished.iter().filter(|finished| finished.sample == 0);
         pictures.for_each(|finished| self.frame_times.push(finished.gpu_time_ns));
-        self.losses.is_fresh &= finished.is_empty();
-        !finished.is_empty()
+        let has_news = !finished.is_empty() || beside > 0;
+        self.losses.is_fresh &= !has_news;
+        has_news
     }
 
     /// Moves the camera by the keys held.
@@ -183,19 +189,23 @@ impl Session {
 
     fn show_panel(&mut self, ui: &mut egui::Ui) -> Shown {
         let (_, picture_size) = self.picture_pixels();
-        let progress = match (&self.reference.worker, &self.screen) {
-            (Some(worker), _) => Some(worker.progress()),
-            (None, Some(screen)) => screen.canvas.progress(),
-            (None, None) => None,
-        };
+        let canvases = self.screen.iter().flat_map(|screen| &screen.canvases);
+        let progress = self.sides.iter().zip(canvases).filter_map(|(side, canvas)| match &side.reference.worker {
+            Some(worker) => Some(worker.progress()),
+            None => canvas.progress(),
+        });
+        let (paths, refusal) = (self.paths(), self.refusal().map(str::to_owned));
+        let chosen = self.sides.first().and_then(|side| side.chosen.as_ref());
+        let mut warnings = self.sides.iter().filter_map(|side| side.chosen.as_ref()?.warning.as_deref());
         let readings = Readings {
             device: self.screen.as_ref().map_or("", |screen| &screen.device().description().name),
             picture_size,
             frame_times: &self.frame_times,
-            progress,
-            refusal: self.refusal.as_deref(),
-            precision: self.chosen.as_ref().map(|chosen| chosen.precision),
-            warning: self.chosen.as_ref().and_then(|chosen| chosen.warning.as_deref()),
+            progress: progress.reduce(f32::min),
+            paths,
+            refusal: refusal.as_deref(),
+            precision: chosen.map(|chosen| chosen.precision),
+            warning: warnings.next(),
             shader_error: self.shader_error.as_deref(),
         };
         let shown = self.panel.show(ui, &self.state, &readings);
@@ -213,9 +223,10 @@ impl Session {
 
     fn present(&mut self, widgets: &mut Widgets) -> Result<(), ScreenError> {
         let (corner, _) = self.picture_pixels();
-        let is_whole_before = self.is_whole();
+        let (is_whole_before, columns) = (self.is_whole(), self.columns());
         let Some(screen) = &mut self.screen else { return Ok(()) };
-        let is_shown = screen.show(widgets, BACKGROUND, corner)?;
+        let is_shown = screen.show(widgets, BACKGROUND, corner, &columns)?;
+        self.estimate_noise()?;
         if self.take_times() && !self.state.is_continuous {
             self.wake();
         }
@@ -281,21 +292,23 @@ impl Session {
 
     fn observe(&mut self, observation: Option<Observation>) -> io::Result<()> {
         let (is_whole, is_finished) = (self.is_whole(), self.is_finished());
+        let refusal = self.refusal().map(str::to_owned);
         let (Some(observer), Some(mut observation), Some(screen)) = (&mut self.observer, observation, &self.screen)
         else {
             return Ok(());
         };
         let size = self.window.inner_size();
         observation.window = [size.width, size.height];
-        observation.picture_size = screen.canvas.size();
+        observation.picture_size = screen.canvases.first().map(Canvas::size).unwrap_or_default();
         observation.is_whole = is_whole;
         observation.is_finished = is_finished;
         observation.pictures_traced = self.pictures_traced;
         observation.latency_ms = self.latency.last_ms;
         observation.gpu_time_ms = self.frame_times.percentile_ns(50).map(|median_ns| median_ns as f64 / 1e6);
-        observation.uploaded_bytes = screen.canvas.uploaded_bytes();
-        observation.refusal = self.refusal.clone();
-        if let (Kernel::Own(kernel), Some(chosen)) = (self.state.kernel, &self.chosen) {
+        observation.uploaded_bytes = screen.canvases.iter().map(Canvas::uploaded_bytes).sum();
+        observation.refusal = refusal;
+        let chosen = self.sides.first().and_then(|side| side.chosen.as_ref());
+        if let (Kernel::Own(kernel), Some(chosen)) = (self.state.kernel, chosen) {
             observation.kernel = format!("{} {}", kernel.algorithm.name(), chosen.precision.name());
         }
         observation.device_losses = self.losses.count;
@@ -304,7 +317,7 @@ impl Session {
     }
 
     fn next_frame(&self) -> NextFrame {
-        let is_tracing = self.screen.as_ref().is_some_and(|screen| screen.canvas.is_tracing());
+        let is_tracing = self.screen.as_ref().is_some_and(Screen::is_tracing);
         if is_tracing || self.input.flight().is_some() {
             return NextFrame::AtOnce;
         }

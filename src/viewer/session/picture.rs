@@ -1,18 +1,17 @@
 //! The picture of the scene as it is now: asked for, waited for, and kept in files.
 
+use std::ops::Range;
 use std::time::Instant;
 
 use super::super::action::Kernel;
-use super::super::options::Wake;
-use super::super::own_kernel::OwnKernel;
-use super::super::reference_worker::ReferenceWorker;
+use super::super::panel::Paths;
 use super::super::screen::ScreenError;
 use super::super::state::Message;
-use super::{Reference, Screenshot, Session};
-use crate::plan::{Limits, Plan, PlanError};
+use super::side::{Answer, Side, Wanted};
+use super::{Screenshot, Session};
+use crate::frame::Frame;
 use crate::scene::Scene;
-use crate::settings::RenderSettings;
-use crate::tracer::{Canvas, Settings, TracerError, limits_of};
+use crate::tracer::{Canvas, TracerError, limits_of};
 
 impl Session {
     /// Kernels compiled meanwhile take the last ones' places; a broken one is reported, and its last good build goes
@@ -21,8 +20,10 @@ impl Session {
     pub(super) fn take_kernels(&mut self) {
         let Some(builds) = self.shader_watch.as_ref().and_then(|watch| watch.take()) else { return };
         let Some(screen) = &mut self.screen else { return };
+        let canvases = &mut screen.canvases;
         let replaced = builds.into_iter().map(|build| {
-            let replaced = screen.canvas.replace_shader(build?);
+            let build = build?;
+            let replaced = canvases.iter_mut().try_for_each(|canvas| canvas.replace_shader(build.clone()));
             replaced.map_err(|error| error.to_string())
         });
         // The builds of one kernel have the same mistakes.
@@ -34,113 +35,64 @@ impl Session {
     /// Has the picture of the scene as it is now traced, if it is not yet.
     pub(super) fn ask_for_picture(&mut self) -> Result<(), ScreenError> {
         let (_, size) = self.picture_pixels();
-        let Some(screen) = &mut self.screen else { return Ok(()) };
-        if size != screen.canvas.size() {
-            screen.canvas.resize(&mut screen.in_flight, size)?;
-            self.frame_times.clear();
-            self.reference.shown = None;
-        }
-        if screen.canvas.set_sampling(&mut screen.in_flight, self.state.sampling())? {
-            self.frame_times.clear();
-        }
-        let limits = limits_of(screen.canvas.device().description());
-        let asked = self.ask_at_precision(&limits, size);
-        self.refusal = match asked {
-            Ok(()) => None,
-            Err(TracerError::Refused(reason)) => Some(reason),
-            Err(error) => return Err(error.into()),
-        };
-        Ok(())
-    }
-
-    fn ask_at_precision(&mut self, limits: &Limits, size: [u32; 2]) -> Result<(), TracerError> {
-        let refused = |error: PlanError| TracerError::Refused(error.to_string());
-        self.choose_precision(limits, size, false).map_err(refused)?;
-        self.ask_kernel(limits, size)?;
-        // The scene did not change since the last frame.
-        let is_at_rest = self.screen.as_ref().is_some_and(|screen| screen.canvas.is_whole());
-        if is_at_rest && !self.is_precision_known {
-            self.choose_precision(limits, size, true).map_err(refused)?;
-            self.ask_kernel(limits, size)?;
-        }
-        Ok(())
-    }
-
-    fn ask_kernel(&mut self, limits: &Limits, size: [u32; 2]) -> Result<(), TracerError> {
-        let scene = &*self.state.shaded_scene();
-        let chosen = self.chosen.as_ref().map(|chosen| chosen.precision);
-        if !self.state.kernel.description().is_on_device() {
-            return self.ask_for_reference();
-        }
-        let settings = self.state.kernel.settings();
-        // With the precision chosen already, no pixels are tried for it.
-        let settings = RenderSettings { precision: chosen.or(settings.precision), ..settings };
-        let settings = match self.state.kernel {
-            // What a plan leaves out is another thing for every scene, and a kernel would be compiled at every edit.
-            Kernel::Own(OwnKernel { algorithm, .. }) => {
-                let precision = settings.precision.unwrap_or(algorithm.description().precisions[0]);
-                let kernel = algorithm.kernel(precision);
-                let kernel = kernel.ok_or_else(|| TracerError::Refused(format!("no {} there", precision.name())))?;
-                Settings { kernel, ..Settings::new(size[0], size[1]) }
+        let Self { state, screen: Some(screen), sides, proxy, .. } = self else { return Ok(()) };
+        let kernels: Vec<_> = state.kernels().collect();
+        screen.set_sides(kernels.len())?;
+        sides.resize_with(kernels.len(), Side::default);
+        let limits = limits_of(screen.device().description());
+        for (index, (side, kernel)) in sides.iter_mut().zip(kernels).enumerate() {
+            let (scene, sampling) = (&*state.shaded_scene(kernel), state.sampling(kernel));
+            let wanted = Wanted { kernel, scene, sampling, size, limits: &limits, proxy };
+            let Answer { is_new, is_traced } = side.ask(screen, index, &wanted)?;
+            self.pictures_traced += u64::from(is_traced);
+            // The times are those of the first side.
+            if is_new && index == 0 {
+                self.frame_times.clear();
             }
-            Kernel::BySetting(_) => {
-                let plan = Plan::for_scene(scene, &settings, size, limits);
-                Settings::planned(&plan.map_err(|error| TracerError::Refused(error.to_string()))?)
-            }
-        };
-        self.reference = Reference::default();
-        let Some(screen) = &mut self.screen else { return Ok(()) };
-        if screen.canvas.use_kernel(settings.kernel)? {
-            self.frame_times.clear();
         }
-        screen.canvas.set_settings(settings);
-        screen.canvas.show(scene)?;
         // The precision is chosen at rest, between two pictures.
-        if self.state.is_continuous && self.screenshots.is_empty() && self.is_precision_known {
-            screen.canvas.trace_again(scene)?;
+        if self.state.is_continuous && self.screenshots.is_empty() && self.is_whole() {
+            self.trace_again()?;
         }
         Ok(())
     }
 
-    fn ask_for_reference(&mut self) -> Result<(), TracerError> {
+    fn trace_again(&mut self) -> Result<(), TracerError> {
         let Some(screen) = &mut self.screen else { return Ok(()) };
-        let scene = &*self.state.shaded_scene();
-        let size = screen.canvas.size();
-        let Reference { worker, shown, failure } = &mut self.reference;
-        match worker.as_ref().filter(|worker| worker.size == size).and_then(ReferenceWorker::take) {
-            Some(Ok(frame)) => {
-                screen.canvas.put(&mut screen.in_flight, &frame)?;
-                self.pictures_traced += 1;
-                *shown = worker.take().map(|worker| (worker.scene.clone(), worker.size));
-            }
-            Some(Err(reason)) => {
-                *failure = worker.take().map(|worker| (worker.scene.clone(), worker.size, reason));
-            }
-            None => {}
-        }
-        let is_current = |of: &(Scene, [u32; 2])| of.0 == *scene && of.1 == size;
-        let is_asked = worker.as_ref().is_some_and(|worker| worker.scene == *scene && worker.size == size);
-        let failed = failure.as_ref().filter(|failure| failure.0 == *scene && failure.1 == size);
-        if let Some((_, _, reason)) = failed {
-            return Err(TracerError::Refused(reason.clone()));
-        }
-        if shown.as_ref().is_some_and(is_current) {
-            *worker = None;
-        } else if !is_asked {
-            let proxy = self.proxy.clone();
-            let wake = move || {
-                // A loop that has ended needs no waking.
-                let _ = proxy.send_event(Wake::News);
-            };
-            *worker = Some(ReferenceWorker::start(scene.clone(), size, wake));
+        let on_device = |kernel: &Kernel| kernel.description().is_on_device();
+        for (canvas, kernel) in
+            screen.canvases.iter_mut().zip(self.state.kernels()).filter(|(_, kernel)| on_device(kernel))
+        {
+            canvas.trace_again(&self.state.shaded_scene(kernel))?;
         }
         Ok(())
+    }
+
+    /// Estimates the noise of pictures by path tracing, when they have come far enough since the last time.
+    pub(super) fn estimate_noise(&mut self) -> Result<(), ScreenError> {
+        let Self { screen: Some(screen), sides, state, .. } = self else { return Ok(()) };
+        let statistical = |(_, kernel): &(usize, Kernel)| kernel.description().is_statistical;
+        for (index, _) in state.kernels().enumerate().filter(statistical) {
+            let (Some(side), Some(canvas)) = (sides.get_mut(index), screen.canvases.get(index)) else { continue };
+            if let Some(samples) = canvas.whole_samples().filter(|samples| side.noise.see(*samples)) {
+                side.noise.keep(samples, screen.read_back(index)?);
+            }
+        }
+        Ok(())
+    }
+
+    /// Of the first side that is drawn by path tracing.
+    pub(super) fn paths(&self) -> Option<Paths> {
+        let index = self.state.kernels().position(|kernel| kernel.description().is_statistical)?;
+        let (kernel, canvas) = (self.state.kernels().nth(index)?, self.screen.as_ref()?.canvases.get(index)?);
+        let (so_far, error) = (canvas.samples(), self.sides.get(index)?.noise.error());
+        Some(Paths { so_far, asked_for: self.state.sampling(kernel).samples, error })
     }
 
     /// How far the picture shown is and, apart from what is still to be chosen for the scene, the canvas.
     pub(super) fn stage(&self) -> [bool; 4] {
-        let canvas = self.screen.as_ref().map(|screen| &screen.canvas);
-        let (is_whole, is_finished) = (canvas.is_some_and(Canvas::is_whole), canvas.is_some_and(Canvas::is_finished));
+        let canvases = || self.screen.iter().flat_map(|screen| &screen.canvases);
+        let (is_whole, is_finished) = (canvases().all(Canvas::is_whole), canvases().all(Canvas::is_finished));
         [self.is_whole(), self.is_finished(), is_whole, is_finished]
     }
 
@@ -155,8 +107,15 @@ impl Session {
     }
 
     fn is_shown(&self, is_traced: impl Fn(&Canvas) -> bool) -> bool {
-        let is_traced = self.screen.as_ref().is_some_and(|screen| is_traced(&screen.canvas));
-        self.refusal.is_none() && self.reference.worker.is_none() && self.is_precision_known && is_traced
+        self.screen.as_ref().is_some_and(|screen| {
+            let is_traced = screen.canvases.iter().all(is_traced);
+            is_traced && screen.canvases.len() == self.sides.len() && self.sides.iter().all(Side::is_settled)
+        })
+    }
+
+    /// Why a kernel does not draw the scene, of the first side where one does not.
+    pub(super) fn refusal(&self) -> Option<&str> {
+        self.sides.iter().find_map(|side| side.refusal.as_deref())
     }
 
     /// Of finished pictures only: until then they wait, and one whose scene has changed meanwhile is not taken.
@@ -164,15 +123,15 @@ impl Session {
         if self.screenshots.is_empty() {
             return Ok(());
         }
-        if let Some(refusal) = self.refusal.clone() {
+        if let Some(refusal) = self.refusal().map(str::to_owned) {
             self.screenshots.clear();
             self.state.report(refusal);
             self.wake();
             return Ok(());
         }
-        let scene = self.state.shaded_scene();
+        let scenes = self.drawn_scenes();
         let asked = self.screenshots.len();
-        self.screenshots.retain(|screenshot| screenshot.scene == *scene);
+        self.screenshots.retain(|screenshot| screenshot.scenes == scenes);
         if self.screenshots.len() < asked {
             self.state.say(Message::SceneChanged);
             self.wake();
@@ -180,8 +139,7 @@ impl Session {
         if self.screenshots.is_empty() || !self.is_finished() {
             return Ok(());
         }
-        let Some(screen) = &mut self.screen else { return Ok(()) };
-        let frame = screen.canvas.read_back(&mut screen.in_flight)?;
+        let Some(frame) = self.shown_picture()? else { return Ok(()) };
         for Screenshot { path, .. } in std::mem::take(&mut self.screenshots) {
             if let Err(error) = frame.save(&path) {
                 self.state.report(error);
@@ -189,5 +147,36 @@ impl Session {
             }
         }
         Ok(())
+    }
+
+    /// As each side draws it.
+    pub(super) fn drawn_scenes(&self) -> Vec<Scene> {
+        self.state.kernels().map(|kernel| self.state.shaded_scene(kernel).into_owned()).collect()
+    }
+
+    /// The columns of the picture that each of two sides has, pixels.
+    pub(super) fn columns(&self) -> Vec<Range<u32>> {
+        let (_, [width, _]) = self.picture_pixels();
+        let divider = (self.state.divider * f64::from(width)).round() as u32;
+        let divider = if self.state.beside.is_some() { divider } else { width };
+        vec![0..divider, divider..width]
+    }
+
+    /// What is seen, each side's part by itself.
+    fn shown_picture(&mut self) -> Result<Option<Frame>, TracerError> {
+        let columns = self.columns();
+        let Some(screen) = &mut self.screen else { return Ok(None) };
+        let mut shown: Option<Frame> = None;
+        for (side, columns) in columns.into_iter().enumerate().take(screen.canvases.len()) {
+            let frame = screen.read_back(side)?;
+            let Some(shown) = &mut shown else {
+                shown = Some(frame);
+                continue;
+            };
+            let (width, part) = (frame.width() as usize, columns.start as usize..columns.end as usize);
+            let rows = shown.pixels_mut().chunks_exact_mut(width).zip(frame.pixels().chunks_exact(width));
+            rows.for_each(|(row, of_side)| row[part.clone()].copy_from_slice(&of_side[part.clone()]));
+        }
+        Ok(shown)
     }
 }

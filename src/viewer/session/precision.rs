@@ -1,7 +1,8 @@
 //! What the accurate kernel calculates in, where the plan for the scene is asked.
 
 use super::super::action::Kernel;
-use super::Session;
+use super::side::{Side, Wanted};
+use crate::algorithm::Algorithm;
 use crate::plan::{Limits, Plan, PlanError, Precision};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
@@ -19,6 +20,7 @@ pub(super) struct Chosen {
 /// What the answer depends on besides.
 #[derive(Clone, Copy, PartialEq)]
 struct Asked {
+    algorithm: Algorithm,
     /// `None`: as the scene needs.
     precision: Option<Precision>,
     max_depth: Option<u32>,
@@ -28,8 +30,8 @@ struct Asked {
 impl Asked {
     /// `None` of kernels that calculate in one way.
     fn by(kernel: Kernel) -> Option<Self> {
-        let RenderSettings { precision, max_depth, error, .. } = kernel.settings();
-        kernel.description().has_precisions().then_some(Self { precision, max_depth, error })
+        let RenderSettings { algorithm, precision, max_depth, error, .. } = kernel.settings();
+        kernel.description().has_precisions().then_some(Self { algorithm, precision, max_depth, error })
     }
 }
 
@@ -39,36 +41,31 @@ impl Chosen {
     }
 
     fn new(scene: &Scene, size: [u32; 2], asked: Asked, limits: &Limits) -> Result<Self, PlanError> {
-        let Asked { precision, max_depth, error } = asked;
-        let settings = RenderSettings { precision, max_depth, error, ..RenderSettings::default() };
+        let Asked { algorithm, precision, max_depth, error } = asked;
+        let settings = RenderSettings { algorithm, precision, max_depth, error, ..RenderSettings::default() };
         let plan = Plan::for_scene(scene, &settings, size, limits)?.with_f32_tried(scene);
         Ok(Self { scene: scene.clone(), size, asked, precision: plan.precision.choice, warning: plan.warning() })
     }
 }
 
-impl Session {
+impl Side {
     /// Asks the plan, unless its answer is for the scene as it is. Pixels may be tested for it, too slow while the
     /// scene changes from frame to frame: `is_at_rest` says that it does not; until then the last answer holds.
     ///
     /// # Errors
     /// There is no plan for the scene on this device.
-    pub(super) fn choose_precision(
-        &mut self,
-        limits: &Limits,
-        size: [u32; 2],
-        is_at_rest: bool,
-    ) -> Result<(), PlanError> {
-        let Some(asked) = Asked::by(self.state.kernel) else {
-            (self.chosen, self.is_precision_known) = (None, true);
+    pub fn choose_precision(&mut self, wanted: &Wanted, is_at_rest: bool) -> Result<(), PlanError> {
+        let &Wanted { kernel, scene, size, limits, .. } = wanted;
+        let Some(asked) = Asked::by(kernel) else {
+            (self.chosen, self.lacks_precision) = (None, false);
             return Ok(());
         };
-        let scene = &*self.state.shaded_scene();
         let is_current = |chosen: &Chosen| chosen.is_for(scene, size, asked);
         let is_of_another_choice = self.chosen.as_ref().is_none_or(|chosen| chosen.asked != asked);
         if is_of_another_choice || (is_at_rest && !self.chosen.as_ref().is_some_and(is_current)) {
             self.chosen = Some(Chosen::new(scene, size, asked, limits)?);
         }
-        self.is_precision_known = self.chosen.as_ref().is_some_and(is_current);
+        self.lacks_precision = !self.chosen.as_ref().is_some_and(is_current);
         Ok(())
     }
 }

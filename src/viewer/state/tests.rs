@@ -93,7 +93,7 @@ fn actions_under_a_dialog_are_ignored_but_the_window_s_settings() {
     state.apply(Action::SetSampling(sampling));
     assert_eq!((state.kernel, state.is_continuous), (Kernel::Own(OwnKernel::REFERENCE), true));
     assert_eq!(
-        (state.accurate_sampling(), state.sampling()),
+        (state.accurate_sampling(), state.sampling(state.kernel)),
         (sampling, Sampling::PLAIN),
         "the reference has its own way"
     );
@@ -104,7 +104,7 @@ fn actions_under_a_dialog_are_ignored_but_the_window_s_settings() {
 #[test]
 fn the_first_kernel_is_the_accurate_one_with_samples_to_come() {
     assert_eq!(start().kernel, Kernel::Own(OwnKernel::ACCURATE));
-    assert_eq!(start().sampling(), Sampling { samples: 16, scale: 1.0 });
+    assert_eq!(start().sampling(start().kernel), Sampling { samples: 16, scale: 1.0 });
 }
 
 #[test]

@@ -83,6 +83,15 @@ pub(super) static WORDS: Words = Words {
             of lights, no shortcuts",
         kernel_accurate_f64: "Accurate f64 (Vulkan)",
         kernel_accurate_f64_hint: "The accurate model in double precision on the Vulkan device, where it has that",
+        kernel_ssr: "Screen space (Vulkan)",
+        kernel_ssr_hint: "The accurate model, but mirrors show only what the camera sees, and nothing is refracted",
+        kernel_path: "Path tracing (Vulkan)",
+        kernel_path_hint: "Light that comes from everywhere takes the place of ambient light; the picture is noisy at \
+            first and gets better for as long as nothing changes",
+        beside: "Right of the divider",
+        beside_hint: "Two algorithms draw the same scene side by side; drag the divider between them",
+        beside_nothing: "nothing: one picture",
+        divider: "Divider",
         shading: "Light model",
         shading_lambert: "Lambert",
         shading_phong: "Phong",
@@ -94,6 +103,9 @@ pub(super) static WORDS: Words = Words {
         samples: "samples per pixel",
         samples_hint: "Anti-aliasing by the accurate kernels on the Vulkan device: a pixel is the mean of so many rays, \
             which are added one by one while nothing changes; with 1, none is added. Remembered for the next start",
+        path_samples: "paths per pixel",
+        path_samples_hint: "Path tracing adds paths one by one while nothing changes, until there are so many. \
+            Remembered for the next start",
         scale: "render scale",
         scale_hint: "The accurate kernels on the Vulkan device trace the picture smaller by this and stretch it \
             (bilinearly) to its place: faster, less sharp",
@@ -166,6 +178,10 @@ pub(super) static WORDS: Words = Words {
     kind_plurals: KindWords { sphere: "spheres", cube: "cubes", cylinder: "cylinders", cone: "cones" },
     status_untitled: "Untitled",
     status_unsaved: "unsaved changes",
+    status_samples: "paths",
+    status_error: "error ≈",
+    status_error_hint: "Estimated root mean square error of linear colour, by what the first and the second half of the \
+        paths differ",
     refusal_title: "The kernel does not draw this scene",
     too_coarse_title: "The picture is wrong: f32 is too coarse for it",
     shader_error_title: "Error in the shader",
