@@ -19,7 +19,7 @@ mod physical;
 mod pipeline;
 mod pipeline_cache;
 mod recorder;
-#[cfg(debug_assertions)]
+#[cfg(any(debug_assertions, test))]
 mod shader_compiler;
 pub mod shaders;
 mod surface;
@@ -48,7 +48,7 @@ pub use physical::{DeviceDescription, DeviceKind, choose};
 pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription, Resource};
 pub(crate) use recorder::Dispatch;
 pub use recorder::Recorder;
-#[cfg(debug_assertions)]
+#[cfg(any(debug_assertions, test))]
 pub(crate) use shader_compiler::{compile, variants};
 pub use shaders::{Builds, Shader};
 pub use surface::{Surface, SurfaceTarget};

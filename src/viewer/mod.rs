@@ -27,7 +27,7 @@ pub mod recovery_file;
 mod reference_worker;
 mod screen;
 mod session;
-#[cfg(debug_assertions)]
+#[cfg(any(debug_assertions, test))]
 mod shader_watch;
 pub mod state;
 pub mod text;

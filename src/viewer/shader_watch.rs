@@ -76,7 +76,7 @@ fn build(sources: &Path, kernel: &str, own: &Shader) -> Result<Shader, Box<dyn E
     let is_own = |suffix: &str| own.name.strip_prefix(kernel) == Some(suffix);
     let variant = variants(kernel).iter().find(|variant| is_own(variant.suffix));
     let variant = *variant.ok_or_else(|| format!("{kernel}.comp has no variant {}", own.name))?;
-    let artifact = compile(sources, Path::new(&format!("{kernel}.comp")), variant, true)?;
+    let artifact = compile(sources, Path::new(&format!("{kernel}.comp")), variant, cfg!(debug_assertions))?;
     Ok(own.rebuilt(artifact.as_binary_u8().to_vec())?)
 }
 

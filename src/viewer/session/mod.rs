@@ -25,7 +25,7 @@ use super::panel::Panel;
 use super::picture_input::PictureInput;
 use super::recovery::Recovery;
 use super::screen::{Screen, ScreenError};
-#[cfg(debug_assertions)]
+#[cfg(any(debug_assertions, test))]
 use super::shader_watch::ShaderWatch;
 use super::state::State;
 use super::{camera_motion, pick};
@@ -54,7 +54,7 @@ pub(super) struct Session {
     /// As many as there are kernels that draw, once a picture was asked for.
     sides: Vec<Side>,
     shader_error: Option<String>,
-    #[cfg(debug_assertions)]
+    #[cfg(any(debug_assertions, test))]
     shader_watch: Option<ShaderWatch>,
     screenshots: Vec<Screenshot>,
     observer: Option<Observer>,
@@ -129,7 +129,7 @@ impl Session {
             widgets_due: Some(Instant::now()),
             sides: Vec::new(),
             shader_error: None,
-            #[cfg(debug_assertions)]
+            #[cfg(any(debug_assertions, test))]
             shader_watch: watch(&options, &proxy),
             screenshots: Vec::new(),
             observer: options.is_observed.then(Observer::default),
@@ -326,7 +326,7 @@ fn open_screen(
     Screen::new(&instance, target, options.device.as_deref(), builds, waits_for_display)
 }
 
-#[cfg(debug_assertions)]
+#[cfg(any(debug_assertions, test))]
 fn watch(options: &Options, proxy: &EventLoopProxy<Wake>) -> Option<ShaderWatch> {
     let (sources, proxy) = (options.watched_sources.clone()?, proxy.clone());
     Some(ShaderWatch::start(sources, move || {

@@ -99,7 +99,7 @@ impl Session {
         self.fly();
         let (mut widgets, observation, repaint_delay) = self.run_widgets();
         self.widgets_due = Instant::now().checked_add(repaint_delay);
-        #[cfg(debug_assertions)]
+        #[cfg(any(debug_assertions, test))]
         self.take_kernels();
         self.ask_for_picture()?;
         self.present(&mut widgets)?;

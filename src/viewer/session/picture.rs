@@ -16,7 +16,7 @@ use crate::tracer::{Canvas, TracerError, limits_of};
 impl Session {
     /// Kernels compiled meanwhile take the last ones' places; a broken one is reported, and its last good build goes
     /// on.
-    #[cfg(debug_assertions)]
+    #[cfg(any(debug_assertions, test))]
     pub(super) fn take_kernels(&mut self) {
         let Some(builds) = self.shader_watch.as_ref().and_then(|watch| watch.take()) else { return };
         let Some(screen) = &mut self.screen else { return };
