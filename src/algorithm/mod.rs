@@ -74,7 +74,7 @@ pub struct Description {
     pub is_accurate: bool,
     /// Whether it calculates in `f32` from the camera where lengths are far apart.
     pub has_close_ups: bool,
-    /// Whether table 4.1 of the course work is measured with it.
+    /// Whether table 4.1 of the course work is measured with it unless others are asked for.
     pub is_in_fps_table: bool,
     /// What the note's table 1.1 says of it: its rank by frame time (1: the quickest), by realism (1: the least), and
     /// whether it is noisy (1).
@@ -236,7 +236,7 @@ impl Algorithm {
         ALGORITHMS.iter().filter(|description| description.is_deterministic()).map(|description| description.algorithm)
     }
 
-    /// Those that table 4.1 of the course work is measured with, in the order of [`ALGORITHMS`].
+    /// Those that table 4.1 of the course work is measured with unless others are asked for, in the order of [`ALGORITHMS`].
     pub fn in_fps_table() -> impl Iterator<Item = Self> {
         ALGORITHMS.iter().filter(|description| description.is_in_fps_table).map(|description| description.algorithm)
     }

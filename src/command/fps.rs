@@ -10,7 +10,7 @@ use clap::Args;
 use super::interrupt::Listener;
 use super::options::{parse_algorithm, parse_size};
 use super::{MeasuringArgs, parse_seconds, print_line, progress_bar, refuse_messages, report_files};
-use crate::algorithm::Algorithm;
+use crate::algorithm::{Algorithm, Description};
 use crate::gpu::{Device, Messages, Validation};
 use crate::measure::fps_table::{self, FpsTable, OffScreen, Plan, Stage, no_scene, settings_of};
 use crate::measure::output::{Document, OutputError, ReportFormat, check_output_path};
@@ -32,9 +32,10 @@ pub struct FpsArgs {
     /// As the course work did: 30 s in a cell
     #[arg(long, conflicts_with = "seconds")]
     pub full: bool,
-    /// Only this algorithm [default: both]
-    #[arg(long, alias = "kernel", value_parser = parse_algorithm(|description| description.is_in_fps_table))]
-    pub algorithm: Option<Algorithm>,
+    /// Only these algorithms, a column each; path tracing with one path a pixel [default: course,whitted]
+    #[arg(long, alias = "kernel", value_name = "NAME,NAME", value_delimiter = ',')]
+    #[arg(value_parser = parse_algorithm(Description::is_on_device))]
+    pub algorithm: Vec<Algorithm>,
     /// Numbers of solids, of 10, 20 and so on to 100 [default: all]
     #[arg(long, value_name = "N,N", value_delimiter = ',', value_parser = parse_count)]
     pub counts: Vec<usize>,
@@ -171,7 +172,9 @@ impl Stage for InWindow<'_> {
 pub(super) fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
     let base = begun.cloned().unwrap_or_else(Plan::of_course);
     let (width, height) = args.size.unwrap_or((base.width, base.height));
-    let algorithms = args.algorithm.map(|algorithm| vec![algorithm]);
+    let asked = args.algorithm.iter().enumerate();
+    let asked = asked.filter(|(place, algorithm)| !args.algorithm[..*place].contains(algorithm));
+    let asked: Vec<_> = asked.map(|(_, &algorithm)| algorithm).collect();
     let mut counts = if args.counts.is_empty() { base.counts } else { args.counts.clone() };
     counts.sort_unstable();
     counts.dedup();
@@ -180,7 +183,7 @@ pub(super) fn plan(args: &FpsArgs, begun: Option<&Plan>) -> Plan {
         width,
         height,
         generations: base.generations,
-        algorithms: algorithms.unwrap_or(base.algorithms),
+        algorithms: if asked.is_empty() { base.algorithms } else { asked },
         counts,
         budget: time.map_or(base.budget, Budget::lasting),
         validation: args.measuring.validation.is_on(),

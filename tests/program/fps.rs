@@ -116,6 +116,22 @@ fn one_kernel_is_measured_alone_and_the_tables_are_printed() {
 }
 
 #[test]
+fn other_algorithms_have_their_tables_where_they_are_asked_for() {
+    let place = Place::new();
+    let sized = ["--size", "16x7", "--counts", "10", "--seconds", "0.01", "--algorithm", "ssr,path,ssr"];
+    let text = place.fps_well(&[&sized[..], &["-o", "fps.json", "-o", "fps.svg"]].concat());
+    for title in
+        ["## Ssr: frames a second", "## Path: frames a second", "## Frames of the path kernel to one of the ssr"]
+    {
+        assert!(text.contains(title), "{title}: {text}");
+    }
+    assert!(!text.contains("## Whitted"), "{text}");
+    let cells = place.read_json("fps.json")["cells"].as_array().unwrap().len();
+    assert_eq!(cells, 2 * 4, "a cell of each kind by each of both");
+    assert!(fs::read_to_string(place.path("fps.svg")).unwrap().contains("path kernel"));
+}
+
+#[test]
 fn what_cannot_be_measured_or_written_is_refused() {
     let place = Place::new();
     for (arguments, part) in [

@@ -181,7 +181,7 @@ fn a_screenshot_is_taken_while_picture_follows_picture() {
 /// The same two programs' pictures as `render` makes of them; beside each other, each has its columns.
 #[test]
 fn all_algorithms_are_chosen_and_two_of_them_stand_side_by_side() {
-    let desk = Desk::new(Locale::English, [1100, 420]);
+    let desk = Desk::new(Locale::English, [760, 320]);
     let mut window = desk.view(&["showcase"]);
     window.click("Screen space (Vulkan)");
     window.wait_until("screen space", |now| now.kernel == "ssr" && now.is_finished);
