@@ -236,7 +236,8 @@ impl Algorithm {
         ALGORITHMS.iter().filter(|description| description.is_deterministic()).map(|description| description.algorithm)
     }
 
-    /// Those that table 4.1 of the course work is measured with unless others are asked for, in the order of [`ALGORITHMS`].
+    /// Those that table 4.1 of the course work is measured with unless others are asked for, in the order of
+    /// [`ALGORITHMS`].
     pub fn in_fps_table() -> impl Iterator<Item = Self> {
         ALGORITHMS.iter().filter(|description| description.is_in_fps_table).map(|description| description.algorithm)
     }

@@ -40,7 +40,7 @@ fn parse_fraction(text: &str) -> Option<f64> {
 /// Such as 0.5 or 1/2.
 pub(super) fn parse_scale(text: &str) -> Result<f64, String> {
     let scale = parse_fraction(text).ok_or("it must be a number or a fraction, such as 0.5 or 1/2")?;
-    Sampling { scale, ..Sampling::PLAIN }.check(MAX_PATH_SAMPLES)?;
+    Sampling { scale, ..Sampling::PLAIN }.check(Sampling::PLAIN.samples)?;
     Ok(scale)
 }
 

@@ -99,7 +99,7 @@ impl Canvas {
         self.size
     }
 
-    /// The picture to look at, once it is [upscaled](Canvas::upscale).
+    /// The picture to look at, once it is [made visible](Canvas::make_visible).
     pub fn picture(&self) -> &Resource {
         self.upscaling.as_ref().map_or(&self.images[self.shown].resource, |upscaling| &upscaling.picture)
     }
@@ -341,9 +341,14 @@ impl Canvas {
         Ok(())
     }
 
-    /// Brings the picture shown up to date where it is traced at a smaller size. To be recorded before it is looked at,
-    /// after the [chunk](Canvas::record).
-    pub fn upscale(&mut self, recorder: &mut Recorder) {
+    /// Makes the picture shown one that can be looked at: cleared before anything is traced, and up to date where it is
+    /// traced at a smaller size. To be recorded before it is looked at, after the [chunk](Canvas::record).
+    pub fn make_visible(&mut self, recorder: &mut Recorder) {
+        self.clear(recorder);
+        self.upscale(recorder);
+    }
+
+    fn upscale(&mut self, recorder: &mut Recorder) {
         if let Some(upscaling) = self.upscaling.as_ref().filter(|_| !self.is_upscaled) {
             upscaling.record(recorder, self.shown, Tile::whole(self.size));
             self.is_upscaled = true;

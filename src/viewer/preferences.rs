@@ -94,7 +94,7 @@ impl Default for Preferences {
             kernel: OwnKernel::ACCURATE,
             // Edges look smooth, and a picture at rest is soon done.
             samples: 16,
-            // Noise is hard to see, and a picture that nobody looks at does not heat the room for long.
+            // So that a window left alone comes to rest; who wants more asks for it.
             path_samples: 1024,
         }
     }

@@ -203,7 +203,7 @@ impl Screen {
         let canvases = &mut self.canvases;
         let presented = swapchain.show(&mut self.in_flight, image, |recorder, image| {
             next_to_trace(canvases).record(recorder, place)?;
-            canvases.iter_mut().for_each(|canvas| canvas.upscale(recorder));
+            canvases.iter_mut().for_each(|canvas| canvas.make_visible(recorder));
             let pictures = canvases.iter().map(Canvas::picture).zip(columns.iter().cloned());
             image.fill(recorder, background, &pictures.collect::<Vec<_>>(), corner, |commands| {
                 let drawn = painter.renderer.cmd_draw(commands, extent, widgets.pixels_per_point, &widgets.primitives);
@@ -257,10 +257,12 @@ fn ready_place(canvases: &mut [Canvas], in_flight: &mut InFlight) -> Result<usiz
     Ok(place)
 }
 
-/// The canvas whose chunk is due: every side is to be whole before any is refined.
+/// The canvas whose chunk is due: every side is to be whole before any is refined, and then none is to wait for the
+/// many samples of another.
 fn next_to_trace(canvases: &mut [Canvas]) -> &mut Canvas {
-    let next = canvases.iter().position(|canvas| !canvas.is_whole());
-    let next = next.or_else(|| canvases.iter().position(|canvas| !canvas.is_finished()));
+    let unfinished = canvases.iter().enumerate().filter(|(_, canvas)| !canvas.is_finished());
+    let next = unfinished.min_by_key(|(_, canvas)| (canvas.is_whole(), canvas.samples())).map(|(index, _)| index);
+    // invariant: there is one at least.
     &mut canvases[next.unwrap_or(0)]
 }
 

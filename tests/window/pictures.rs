@@ -199,7 +199,9 @@ fn all_algorithms_are_chosen_and_two_of_them_stand_side_by_side() {
     assert!(is_told, "{:?}", now.widgets);
     let path = window.screenshot("path.exr");
     let rendered = desk.render_with(&["--algorithm", "path", "--samples", "70"], "showcase", size);
-    // One sums in f32 from path to path, the other means of eight in f64: 70 steps of half a unit at most.
+    // One keeps the mean in f32 from path to path, which moves it by (n + 1)/2 + 3 = 38.5 units of 2⁻²⁴ of the largest
+    // sample at most (settings::sampling); the other keeps it in f64, of runs of eight, 7.5 units. 140 of them are
+    // allowed: samples up to three times as bright as the brightest pixel.
     let most = |frame: &Frame| frame.pixels().iter().flatten().copied().fold(1.0, f32::max);
     let bound = 70.0 * f32::EPSILON * most(&rendered);
     for (pixel, rendered) in path.pixels().iter().flatten().zip(rendered.pixels().iter().flatten()) {

@@ -18,7 +18,7 @@ impl Canvas {
         let buffer = Arc::new(Buffer::new(&self.device, "picture read back", BufferKind::Readback, bytes)?);
         let resource = Resource::from(&buffer);
         in_flight.run(|recorder| {
-            self.upscale(recorder);
+            self.make_visible(recorder);
             recorder.make_ready(self.picture(), Use::CopySource);
             recorder.make_ready(&resource, Use::CopyTarget);
             recorder.copy_to_buffer(self.picture(), &resource, width, height);

@@ -26,8 +26,7 @@ pub fn show(ui: &Ui, picture: Rect, words: &Words, state: &State, actions: &mut 
         response.widget_info(|| WidgetInfo::slider(true, state.divider, name));
         name_widget(&response, || name.to_owned());
         if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
-            let share = (pointer.x - picture.left()) / picture.width();
-            actions.push(Action::MoveDivider(f64::from(share.clamp(0.0, 1.0))));
+            actions.push(Action::MoveDivider(f64::from((pointer.x - picture.left()) / picture.width())));
         }
         let painter = ui.painter().with_clip_rect(picture);
         for (width, color) in STROKES {

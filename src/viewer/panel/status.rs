@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, words: &Words, state: &State, readings: &Readings) {
             ui.separator();
             ui.label(format!("{so_far}/{asked_for} {}", words.status_samples));
             if let Some(error) = error {
-                ui.label(format!("{} {}", words.status_error, words.error(error)))
+                ui.label(format!("{} {}", words.status_error, words.three_digits(error)))
                     .on_hover_text(words.status_error_hint);
             }
         }

@@ -35,9 +35,10 @@ impl Noise {
         self.kept = Some((samples, picture));
     }
 
-    /// Root of the mean square of all pixels' standard errors, linear, over all channels.
-    pub fn error(&self) -> Option<f64> {
-        self.error
+    /// Root of the mean square of all pixels' standard errors, linear, over all channels, of a picture that has come to
+    /// so many samples.
+    pub fn error(&self, samples: u32) -> Option<f64> {
+        self.error.filter(|_| self.kept.as_ref().is_some_and(|(kept, _)| *kept <= samples))
     }
 }
 
@@ -80,11 +81,11 @@ mod tests {
             if noise.see(samples) {
                 noise.keep(samples, picture(samples));
             }
-            assert_eq!(noise.error().is_some(), samples >= 2 * FEWEST, "{samples}");
+            assert_eq!(noise.error(samples).is_some(), samples >= 2 * FEWEST, "{samples}");
         }
         // A variance of 1/12; of 12288 squares the root is off by a part of √(1/(2·12288)) = 0.6 %, times 4.
         let expected = (1.0 / 12.0 / 64.0_f64).sqrt();
-        assert!((noise.error().unwrap() / expected - 1.0).abs() < 0.026);
+        assert!((noise.error(64).unwrap() / expected - 1.0).abs() < 0.026);
     }
 
     #[test]
@@ -94,7 +95,8 @@ mod tests {
             assert!(noise.see(samples));
             noise.keep(samples, picture(1));
         }
-        assert!(!noise.see(16) && !noise.see(17));
-        assert!(!noise.see(1) && noise.error().is_none());
+        assert!(!noise.see(16) && !noise.see(17) && noise.error(17).is_some());
+        assert!(noise.error(1).is_none(), "what is not yet seen of the next is not told of the last");
+        assert!(!noise.see(1) && noise.error(16).is_none());
     }
 }

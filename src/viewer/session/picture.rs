@@ -42,8 +42,8 @@ impl Session {
         let limits = limits_of(screen.device().description());
         for (index, (side, kernel)) in sides.iter_mut().zip(kernels).enumerate() {
             let (scene, sampling) = (&*state.shaded_scene(kernel), state.sampling(kernel));
-            let wanted = Wanted { kernel, scene, sampling, size, limits: &limits, proxy };
-            let Answer { is_new, is_traced } = side.ask(screen, index, &wanted)?;
+            let wanted = Wanted { index, kernel, scene, sampling, size, limits: &limits, proxy };
+            let Answer { is_new, is_traced } = side.ask(screen, &wanted)?;
             self.pictures_traced += u64::from(is_traced);
             // The times are those of the first side.
             if is_new && index == 0 {
@@ -85,7 +85,8 @@ impl Session {
     pub(super) fn paths(&self) -> Option<Paths> {
         let index = self.state.kernels().position(|kernel| kernel.description().is_statistical)?;
         let (kernel, canvas) = (self.state.kernels().nth(index)?, self.screen.as_ref()?.canvases.get(index)?);
-        let (so_far, error) = (canvas.samples(), self.sides.get(index)?.noise.error());
+        let so_far = canvas.samples();
+        let error = self.sides.get(index)?.noise.error(so_far);
         Some(Paths { so_far, asked_for: self.state.sampling(kernel).samples, error })
     }
 

@@ -37,6 +37,8 @@ pub(super) struct Reference {
 
 /// What is asked of a side.
 pub(super) struct Wanted<'a> {
+    /// Of the side, from the left.
+    pub index: usize,
     pub kernel: Kernel,
     /// As the kernel draws it.
     pub scene: &'a Scene,
@@ -57,18 +59,19 @@ pub(super) struct Answer {
 }
 
 impl Side {
-    /// Has the picture traced on the canvas of this index, if it is not yet.
+    /// Has the picture traced on the side's canvas, if it is not yet.
     ///
     /// # Errors
     /// The device fails; what the kernel cannot do is in [`Side::refusal`].
-    pub fn ask(&mut self, screen: &mut Screen, index: usize, wanted: &Wanted) -> Result<Answer, TracerError> {
+    pub fn ask(&mut self, screen: &mut Screen, wanted: &Wanted) -> Result<Answer, TracerError> {
         let mut answer = Answer::default();
-        if wanted.size != screen.canvases[index].size() {
-            screen.canvases[index].resize(&mut screen.in_flight, wanted.size)?;
+        let canvas = &mut screen.canvases[wanted.index];
+        if wanted.size != canvas.size() {
+            canvas.resize(&mut screen.in_flight, wanted.size)?;
             self.reference.shown = None;
             answer.is_new = true;
         }
-        self.refusal = match self.ask_at_precision(screen, index, wanted, &mut answer) {
+        self.refusal = match self.ask_at_precision(screen, wanted, &mut answer) {
             Ok(()) => None,
             Err(TracerError::Refused(reason)) => Some(reason),
             Err(error) => return Err(error),
@@ -79,30 +82,23 @@ impl Side {
     fn ask_at_precision(
         &mut self,
         screen: &mut Screen,
-        index: usize,
         wanted: &Wanted,
         answer: &mut Answer,
     ) -> Result<(), TracerError> {
         self.choose_precision(wanted, false).map_err(refused)?;
-        self.ask_kernel(screen, index, wanted, answer)?;
+        self.ask_kernel(screen, wanted, answer)?;
         // The scene did not change since the last frame.
-        if self.lacks_precision && screen.canvases[index].is_whole() {
+        if self.lacks_precision && screen.canvases[wanted.index].is_whole() {
             self.choose_precision(wanted, true).map_err(refused)?;
-            self.ask_kernel(screen, index, wanted, answer)?;
+            self.ask_kernel(screen, wanted, answer)?;
         }
         Ok(())
     }
 
-    fn ask_kernel(
-        &mut self,
-        screen: &mut Screen,
-        index: usize,
-        wanted: &Wanted,
-        answer: &mut Answer,
-    ) -> Result<(), TracerError> {
-        let &Wanted { kernel, scene, sampling, size, limits, .. } = wanted;
+    fn ask_kernel(&mut self, screen: &mut Screen, wanted: &Wanted, answer: &mut Answer) -> Result<(), TracerError> {
+        let &Wanted { index, kernel, scene, sampling, size, limits, .. } = wanted;
         if !kernel.description().is_on_device() {
-            answer.is_traced |= self.ask_for_reference(screen, index, wanted)?;
+            answer.is_traced |= self.ask_for_reference(screen, wanted)?;
             return Ok(());
         }
         let settings = kernel.settings();
@@ -130,8 +126,8 @@ impl Side {
     }
 
     /// Returns whether a picture came.
-    fn ask_for_reference(&mut self, screen: &mut Screen, index: usize, wanted: &Wanted) -> Result<bool, TracerError> {
-        let &Wanted { scene, size, proxy, .. } = wanted;
+    fn ask_for_reference(&mut self, screen: &mut Screen, wanted: &Wanted) -> Result<bool, TracerError> {
+        let &Wanted { index, scene, size, proxy, .. } = wanted;
         let Reference { worker, shown, failure } = &mut self.reference;
         let mut is_traced = false;
         match worker.as_ref().filter(|worker| worker.size == size).and_then(ReferenceWorker::take) {
