@@ -1,6 +1,5 @@
 //! `zerkalo algorithms`: table 1.1 of the course work, measured.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use anyhow::Result;
@@ -59,18 +58,8 @@ pub fn run(args: &AlgorithmsArgs) -> Result<()> {
     let listener = Listener::start();
     let device = Device::open(args.measuring.device.device.as_deref(), args.measuring.validation.validation())?;
     let messages = device.messages().clone();
-    let mut samples = args.samples.clone();
-    samples.sort_unstable();
-    samples.dedup();
-    let conditions = Conditions {
-        width: args.size.0,
-        height: args.size.1,
-        samples,
-        seeds: args.seeds,
-        validation: args.measuring.validation.is_on(),
-    };
     let machine = Machine::of(device.description());
-    let mut comparison = Comparison { machine, conditions, scenes: Vec::new() };
+    let mut comparison = Comparison { machine, conditions: conditions(args), scenes: Vec::new() };
     let measured = scenes.iter().try_for_each(|(name, scene)| -> Result<()> {
         let bar = progress_bar(u64::from(pictures_of_a_seed()) * u64::from(args.seeds));
         bar.set_message((*name).to_owned());
@@ -79,7 +68,7 @@ pub fn run(args: &AlgorithmsArgs) -> Result<()> {
                 Step::Picture { done } => bar.set_position(done.into()),
                 Step::Part => bar.tick(),
             }
-            if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            listener.keep_going()
         });
         bar.finish_and_clear();
         comparison.scenes.push(outcome?);
@@ -94,4 +83,12 @@ pub fn run(args: &AlgorithmsArgs) -> Result<()> {
     }
     measured?;
     refuse_messages(&messages)
+}
+
+pub(super) fn conditions(args: &AlgorithmsArgs) -> Conditions {
+    let mut samples = args.samples.clone();
+    samples.sort_unstable();
+    samples.dedup();
+    let (width, height) = args.size;
+    Conditions { width, height, samples, seeds: args.seeds, validation: args.measuring.validation.is_on() }
 }

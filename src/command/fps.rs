@@ -201,7 +201,7 @@ fn fill(table: &mut FpsTable, stage: &mut dyn Stage, outputs: &[PathBuf]) -> Res
         bar.set_message(format!("{count} of the kind {}", kind.name()));
         let measured = fps_table::measure(stage, &table.plan, kind, count, &mut || {
             bar.tick();
-            if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            listener.keep_going()
         });
         match measured {
             Ok(cells) => table.put(cells),

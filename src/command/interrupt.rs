@@ -2,6 +2,7 @@
 //! program ends at once. Neither leaves a half-written file.
 
 use std::io::Write;
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 
@@ -49,6 +50,11 @@ impl Listener {
     /// Whether Ctrl-C has come while this or an earlier one lived.
     pub fn stop_requested(&self) -> bool {
         REQUESTED.load(Ordering::Relaxed)
+    }
+
+    /// What work that asks whether to go on is told.
+    pub fn keep_going(&self) -> ControlFlow<()> {
+        if self.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }
 

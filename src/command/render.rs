@@ -4,7 +4,6 @@ mod paths;
 mod ssr;
 
 use std::io::{self, Write};
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use anyhow::{Context, Result};
@@ -259,7 +258,7 @@ fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
     let listener = Listener::start();
     let image = reference::render(&scene, width, height, &|rows_done| {
         bar.set_position(u64::from(rows_done));
-        if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        listener.keep_going()
     });
     bar.finish_and_clear();
     let image = image.map_err(|error| match error {
@@ -297,7 +296,7 @@ fn render(tracer: &mut Tracer, repeat: Option<u32>, listener: &Listener) -> Resu
     for index in 0..warm_ups + measured {
         let gpu_time_ns = tracer.render(&mut frame, &mut |pixels_done| {
             bar.set_position(index * frame_pixels + pixels_done);
-            if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            listener.keep_going()
         })?;
         if index >= warm_ups {
             samples_ns.extend(gpu_time_ns);

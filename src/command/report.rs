@@ -17,7 +17,7 @@ use crate::measure::Machine;
 use crate::measure::output::{check_writable, write_text};
 use crate::report::{Ending, Report, Section};
 use crate::tracer::TracerError;
-use parts::{Parts, devices, fps, maps, stability, trade, validation};
+use parts::{Parts, algorithms, devices, fps, maps, stability, trade, validation};
 use watch::{Progress, Watch};
 
 /// Measure all that can be measured of a device, and write one page about it, in English and Russian
@@ -79,6 +79,10 @@ pub fn run(args: &ReportArgs) -> Result<()> {
     });
     save(&report, &path)?;
     fill(&mut report.fps, watch.progress("fps", 20.0), |table, progress| fps(table, &device, progress));
+    save(&report, &path)?;
+    fill(&mut report.algorithms, watch.progress("algorithms", 15.0), |comparison, progress| {
+        algorithms(comparison, &parts, &device, progress)
+    });
     save(&report, &path)?;
     fill(&mut report.trade, watch.progress("trade", 120.0), |trade_so_far, progress| {
         trade(trade_so_far, &parts, &device, progress)

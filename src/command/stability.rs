@@ -1,6 +1,5 @@
 //! `zerkalo stability`: the catalogue of extremes, tested on every kernel.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -149,7 +148,7 @@ fn try_all_watched(
         bar.set_length(progress.all as u64);
         bar.set_position(progress.done as u64);
         bar.set_message(progress.id.to_owned());
-        if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        listener.keep_going()
     });
     bar.finish_and_clear();
     match tried {
@@ -164,7 +163,7 @@ fn sheet(device: &Arc<Device>, listener: &Listener) -> Result<Frame, TracerError
     let sheet = error_sheet(device, &mut |done, total| {
         bar.set_length(total as u64);
         bar.set_position(done as u64);
-        if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        listener.keep_going()
     });
     bar.finish_and_clear();
     sheet

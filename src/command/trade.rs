@@ -1,6 +1,5 @@
 //! `zerkalo trade SCENE…`: what accuracy costs on this device, and which setting is meant.
 
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -16,7 +15,8 @@ use crate::algorithm::{Algorithm, Description};
 use crate::gpu::Device;
 use crate::measure::output::Document;
 use crate::measure::trade::{
-    self, Axes, Conditions, Counted, Question, SceneTrade, Step, Sweep, Trade, Truth, TruthError, measure, truth,
+    self, Axes, Conditions, Counted, Question, SceneTrade, Step, Sweep, Trade, TruePicture, TruthError, measure,
+    radiance, truth,
 };
 use crate::measure::{Budget, Machine};
 use crate::reference::RenderError;
@@ -31,12 +31,14 @@ pub enum Target {
     Point,
     /// Of the pixels' areas: the reference's mean over 8x8 points in each
     Area,
+    /// Of all light: path tracing, against which any algorithm can be measured; errors are then root mean squares
+    Radiance,
 }
 
 /// Measure the price of accuracy: the time and the error of every setting on scenes, and which one is meant
 ///
-/// Errors are the largest of a linear channel against the reference on the CPU; times are of frames that take turns
-/// with the accurate kernel's. Ctrl-C keeps what is measured.
+/// Errors are the largest of a linear channel against the reference on the CPU, or by --target radiance root mean squares
+/// against all light; times are of frames that take turns with the accurate kernel's. Ctrl-C keeps what is measured.
 #[derive(Debug, Clone, Args)]
 pub struct TradeArgs {
     /// Scene files or names of `zerkalo gallery`
@@ -60,9 +62,12 @@ pub struct TradeArgs {
     /// The largest error is of pixels off discontinuities: not beside one whose ray goes another way
     #[arg(long)]
     pub off_edges: bool,
-    /// Only these algorithms [default: all]
+    /// Samples a pixel of the true picture by --target radiance [default: 4096]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(64..=1 << 24))]
+    pub truth_samples: Option<u32>,
+    /// Only these algorithms; path tracing by --target radiance only [default: all]
     #[arg(long, alias = "kernel", value_name = "ALGORITHM,ALGORITHM", value_delimiter = ',',
-          value_parser = parse_algorithm(Description::is_deterministic))]
+          value_parser = parse_algorithm(Description::is_on_device))]
     pub algorithm: Vec<Algorithm>,
     /// Measure each setting so long, seconds [default: 1 s or 9 pairs of frames, whichever is first, but 2 pairs and
     /// 0.25 s at least]
@@ -99,6 +104,7 @@ pub fn run(args: &TradeArgs) -> Result<()> {
     if args.save_settings.is_some() && (questions(args).len() != 1 || args.scenes.len() != 1) {
         return Err(Contradictory("--save-settings is for one scene and one of --error and --fps").into());
     }
+    check_target(args)?;
     let scenes: Vec<(&str, Scene)> = args
         .scenes
         .iter()
@@ -131,6 +137,37 @@ pub fn run(args: &TradeArgs) -> Result<()> {
     unanswered(&trade).map_or(Ok(()), |unanswered| Err(unanswered.into()))
 }
 
+/// Enough that the truth is better than most pictures measured against it; seconds for a small one on a CPU.
+const USUAL_TRUTH_SAMPLES: u32 = 4096;
+
+/// # Errors
+/// What is for another target.
+fn check_target(args: &TradeArgs) -> Result<(), Contradictory> {
+    let is_radiance = args.target == Target::Radiance;
+    if is_radiance && args.off_edges {
+        return Err(Contradictory("--off-edges is for the largest error: with --target radiance, the RMSE counts"));
+    }
+    if !is_radiance && args.truth_samples.is_some() {
+        return Err(Contradictory("--truth-samples is for --target radiance"));
+    }
+    if !is_radiance && args.algorithm.iter().any(|algorithm| algorithm.description().is_statistical) {
+        return Err(Contradictory(
+            "path tracing draws more light than the reference: it is measured against all light, by --target radiance",
+        ));
+    }
+    Ok(())
+}
+
+fn target(args: &TradeArgs) -> trade::Target {
+    match args.target {
+        Target::Point => trade::Target::Point,
+        Target::Area => trade::Target::Area,
+        Target::Radiance => {
+            trade::Target::Radiance { truth_samples: args.truth_samples.unwrap_or(USUAL_TRUTH_SAMPLES) }
+        }
+    }
+}
+
 fn questions(args: &TradeArgs) -> Vec<Question> {
     args.error.map(Question::Error).into_iter().chain(args.fps.map(Question::Fps)).collect()
 }
@@ -140,11 +177,12 @@ pub(super) fn conditions(args: &TradeArgs) -> Conditions {
     Conditions {
         width,
         height,
-        target: match args.target {
-            Target::Point => trade::Target::Point,
-            Target::Area => trade::Target::Area,
+        target: target(args),
+        counted: match args.target {
+            Target::Radiance => Counted::RootMeanSquare,
+            Target::Point | Target::Area if args.off_edges => Counted::OffDiscontinuities,
+            Target::Point | Target::Area => Counted::AllPixels,
         },
-        counted: if args.off_edges { Counted::OffDiscontinuities } else { Counted::AllPixels },
         budget: args.seconds.map_or(QUICK, Budget::lasting),
         validation: args.measuring.validation.is_on(),
         questions: questions(args),
@@ -152,12 +190,8 @@ pub(super) fn conditions(args: &TradeArgs) -> Conditions {
 }
 
 pub(super) fn axes(args: &TradeArgs) -> Axes {
-    let target = match args.target {
-        Target::Point => trade::Target::Point,
-        Target::Area => trade::Target::Area,
-    };
-    let full =
-        Axes { shading: args.shading, ..Axes::full(target, &args.error.map_or(Vec::new(), |error| vec![error])) };
+    let asked: Vec<f64> = args.error.into_iter().collect();
+    let full = Axes { shading: args.shading, ..Axes::full(target(args), &asked) };
     if args.algorithm.is_empty() { full } else { Axes { algorithms: args.algorithm.clone(), ..full } }
 }
 
@@ -172,7 +206,21 @@ fn measure_scene(
 ) -> Result<()> {
     let (width, height) = args.size;
     let sweep = Sweep::of(scene, &axes(args), &limits_of(device.description()), [width, height])?;
-    let truth = true_picture(&trade.conditions, name, scene, listener)?;
+    let truth = match trade.conditions.target {
+        trade::Target::Point | trade::Target::Area => {
+            TruePicture::Reference(true_picture(&trade.conditions, name, scene, listener)?)
+        }
+        trade::Target::Radiance { truth_samples: samples } => {
+            let bar = progress_bar(samples.into());
+            bar.set_message(format!("{name}: all light, by path tracing"));
+            let drawn = radiance(device, scene, args.shading, [width, height], samples, &mut |so_far| {
+                bar.set_position(so_far.into());
+                listener.keep_going()
+            });
+            bar.finish_and_clear();
+            TruePicture::Radiance(drawn?)
+        }
+    };
     let bar = progress_bar(sweep.planned().count() as u64);
     trade.scenes.push(SceneTrade::new(name, scene, &sweep));
     let Trade { conditions, scenes, .. } = trade;
@@ -186,13 +234,13 @@ fn measure_scene(
             }
             Step::Tile => bar.tick(),
         }
-        if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        listener.keep_going()
     });
     bar.finish_and_clear();
     Ok(outcome?)
 }
 
-fn true_picture(conditions: &Conditions, name: &str, scene: &Scene, listener: &Listener) -> Result<Truth> {
+fn true_picture(conditions: &Conditions, name: &str, scene: &Scene, listener: &Listener) -> Result<trade::Truth> {
     let bar = progress_bar(1000);
     bar.set_message(format!("{name}: the reference"));
     let start = Instant::now();
@@ -212,7 +260,7 @@ fn true_picture(conditions: &Conditions, name: &str, scene: &Scene, listener: &L
                 );
             });
         }
-        if listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        listener.keep_going()
     });
     bar.finish_and_clear();
     truth.map_err(|error| match error {

@@ -87,6 +87,17 @@ pub fn image_error(
     Ok(sums.into_error(flip_mean))
 }
 
+/// [`ImageError::rmse`] of linear values over all pixels alone; infinite where a pixel is finite in one of the frames only.
+///
+/// # Errors
+/// As of [`image_error`].
+pub(crate) fn rmse(reference: &Frame, test: &Frame) -> Result<f64, ComparisonError> {
+    check_sizes(reference, test, None)?;
+    let mut sums = PixelSums::default();
+    reference.pixels().iter().zip(test.pixels()).for_each(|(a, b)| sums.add(a.map(f64::from), b.map(f64::from)));
+    Ok(sums.rmse().filter(|_| sums.non_finite_pixels == 0).unwrap_or(f64::INFINITY))
+}
+
 fn check_sizes(reference: &Frame, test: &Frame, mask: Option<&Mask>) -> Result<(), ComparisonError> {
     let size = (reference.width(), reference.height());
     let test_size = (test.width(), test.height());
@@ -131,9 +142,13 @@ impl PixelSums {
         }
     }
 
-    fn into_error(self, flip_mean: f64) -> ImageError {
+    fn rmse(&self) -> Option<f64> {
         let finite_pixels = self.pixels - self.non_finite_pixels;
-        let rmse = (finite_pixels > 0).then(|| (self.squared / (3 * finite_pixels) as f64).sqrt());
+        (finite_pixels > 0).then(|| (self.squared / (3 * finite_pixels) as f64).sqrt())
+    }
+
+    fn into_error(self, flip_mean: f64) -> ImageError {
+        let rmse = self.rmse();
         ImageError {
             rmse,
             max_abs: rmse.map(|_| self.max_abs),

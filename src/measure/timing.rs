@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::frame::Frame;
 use crate::gpu::Device;
 use crate::scene::Scene;
-use crate::tracer::{Settings, Tracer, TracerError};
+use crate::tracer::{Progressive, Settings, Tracer, TracerError};
 
 /// When a kernel has been measured enough: after its time or after its frames, whichever is first, but never
 /// after fewer frames than [`Budget::MIN_FRAMES`].
@@ -63,10 +63,17 @@ pub struct FrameTime {
     pub wall_time: Duration,
 }
 
-/// A kernel that draws the same frame again and again.
+/// A kernel that draws a frame again and again.
 pub struct TimedTracer {
-    tracer: Tracer,
+    drawing: Drawing,
     pub frame: Frame,
+}
+
+enum Drawing {
+    /// The same every time.
+    Frame(Tracer),
+    /// A picture of so many samples a pixel, every time by another seed.
+    Paths { picture: Progressive, samples: u32, next_seed: u32 },
 }
 
 impl TimedTracer {
@@ -74,13 +81,37 @@ impl TimedTracer {
     /// As of [`Tracer::new`].
     pub fn new(device: &Arc<Device>, scene: &Scene, settings: &Settings) -> Result<Self, TracerError> {
         let tracer = Tracer::new(device, scene, settings)?;
-        Ok(Self { frame: tracer.frame()?, tracer })
+        Ok(Self { frame: tracer.frame()?, drawing: Drawing::Frame(tracer) })
+    }
+
+    /// Pictures by path tracing, of so many samples a pixel each; the first by the settings' seed, then by those that
+    /// follow.
+    ///
+    /// # Errors
+    /// As of [`Tracer::new`].
+    pub fn of_paths(
+        device: &Arc<Device>,
+        scene: &Scene,
+        settings: &Settings,
+        samples: u32,
+    ) -> Result<Self, TracerError> {
+        let picture = Progressive::new(device, scene, settings)?;
+        Ok(Self { frame: picture.frame()?, drawing: Drawing::Paths { picture, samples, next_seed: settings.seed } })
     }
 
     /// `keep_going` is asked after every tile and can stop the work there.
     pub fn draw(&mut self, keep_going: &mut dyn FnMut() -> ControlFlow<()>) -> Result<FrameTime, TracerError> {
         let start = Instant::now();
-        let gpu_time_ns = self.tracer.render(&mut self.frame, &mut |_| keep_going())?;
+        let gpu_time_ns = match &mut self.drawing {
+            Drawing::Frame(tracer) => tracer.render(&mut self.frame, &mut |_| keep_going())?,
+            Drawing::Paths { picture, samples, next_seed } => {
+                picture.restart_by_seed(*next_seed);
+                *next_seed = next_seed.wrapping_add(1);
+                let gpu_time_ns = picture.add(*samples, keep_going)?;
+                picture.show_in(&mut self.frame);
+                gpu_time_ns
+            }
+        };
         Ok(FrameTime { gpu_time_ns, wall_time: start.elapsed() })
     }
 }

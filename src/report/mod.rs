@@ -2,6 +2,7 @@
 //!
 //! Every text is there in English and Russian, and the reader chooses, which takes no script.
 
+mod algorithms;
 mod devices;
 mod fps;
 mod maps;
@@ -18,6 +19,7 @@ use jiff::Timestamp;
 
 use crate::frame::{Frame, FrameError};
 use crate::gpu::TriedDevice;
+use crate::measure::algorithms::Comparison;
 use crate::measure::fps_table::FpsTable;
 use crate::measure::output::OutputError;
 use crate::measure::trade::Trade;
@@ -43,6 +45,8 @@ pub struct Report {
     pub stability: Section<Stability>,
     /// Table 4.1 of the course work.
     pub fps: Section<FpsTable>,
+    /// Table 1.1 of the course work.
+    pub algorithms: Section<Comparison>,
     /// Price of accuracy.
     pub trade: Section<Trade>,
 }
@@ -128,8 +132,17 @@ impl Report {
     }
 
     /// In the page's order.
-    pub fn endings(&self) -> [&Ending; 6] {
-        let Self { machine: _, begun: _, is_quick: _, devices, maps, validation, stability, fps, trade } = self;
-        [&devices.ending, &maps.ending, &validation.ending, &stability.ending, &fps.ending, &trade.ending]
+    pub fn endings(&self) -> [&Ending; 7] {
+        let Self { machine: _, begun: _, is_quick: _, devices, maps, validation, stability, fps, algorithms, trade } =
+            self;
+        [
+            &devices.ending,
+            &maps.ending,
+            &validation.ending,
+            &stability.ending,
+            &fps.ending,
+            &algorithms.ending,
+            &trade.ending,
+        ]
     }
 }

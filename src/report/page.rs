@@ -6,7 +6,7 @@ use jiff::fmt::strtime;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::text::{both, commands, duration, english, table};
-use super::{Ending, Report, ReportError, Section, devices, fps, maps, stability, trade, validation};
+use super::{Ending, Report, ReportError, Section, algorithms, devices, fps, maps, stability, trade, validation};
 
 /// A section, made up.
 struct Chapter<'a> {
@@ -43,6 +43,12 @@ fn chapters(report: &Report) -> Result<Vec<Chapter<'_>>, ReportError> {
             stability::body(&report.stability.content)?,
         ),
         Chapter::new("fps", both("Speed", "Скорость"), &report.fps, fps::body(&report.fps.content)?),
+        Chapter::new(
+            "algorithms",
+            both("Three algorithms", "Три алгоритма"),
+            &report.algorithms,
+            algorithms::body(&report.algorithms.content)?,
+        ),
         Chapter::new(
             "trade",
             both("The price of accuracy", "Цена точности"),

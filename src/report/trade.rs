@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::text::{both, english, table_of, words};
 use super::{ReportError, picture};
 use crate::measure::output::figure;
-use crate::measure::trade::{Answer, Figures, SceneTrade, Trade, answers, asked, chart, figures, settings};
+use crate::measure::trade::{Answer, Figures, SceneTrade, Trade, answers, asked, chart, figures, settings, truth_told};
 use crate::settings::three_digits;
 
 pub fn body(trade: &Trade) -> Result<Markup, ReportError> {
@@ -36,7 +36,7 @@ fn of_scene(trade: &Trade, scene: &SceneTrade) -> Result<Markup, ReportError> {
     // Its own chart: a panel a scene stands where the scene is described.
     let alone = Trade { machine: trade.machine.clone(), conditions: conditions.clone(), scenes: vec![scene.clone()] };
     let drawn = picture::chart(&chart(&alone).to_svg()?, &format!("{}: time of a frame against error", scene.scene));
-    let settings = settings(scene, &figures);
+    let settings = settings(scene, &figures, conditions.counted);
     Ok(html! {
         h3 { code { (scene.scene) } " "
             (both(format!("{} solids, {} generations", scene.solids, scene.max_depth),
@@ -44,6 +44,7 @@ fn of_scene(trade: &Trade, scene: &SceneTrade) -> Result<Markup, ReportError> {
         @if !scene.complete {
             p.verdict { (both("Not complete: what is measured is told.", "Не закончено: показано измеренное.")) }
         }
+        @if let Some(told) = truth_told(scene, conditions) { p { (words(&told)) } }
         @for answer in answers(scene, conditions) { (told(&answer, &figures)) }
         (drawn)
         details {
@@ -67,7 +68,7 @@ fn told(answer: &Answer, figures: &[Figures]) -> Markup {
             (words(&asked(answer.question))) ": "
             @if let Some(found) = found {
                 b { (found.name) }
-                @if let (Some(time_ns), Some(error)) = (found.time_ns, found.largest_error) {
+                @if let (Some(time_ns), Some(error)) = (found.time_ns, found.counted_error) {
                     (both(
                         format!(", {} ms a frame, error {}.", figure(time_ns / 1e6), three_digits(error)),
                         format!(", {} мс на кадр, ошибка {}.", figure(time_ns / 1e6), three_digits(error)),

@@ -155,8 +155,10 @@ impl fmt::Display for RenderSettings {
             Some(depth) => write!(f, ", {depth} generations")?,
             None => {}
         }
-        if samples > 1 {
-            write!(f, ", {samples} samples")?;
+        match samples {
+            1 if algorithm.description().is_statistical => write!(f, ", 1 sample")?,
+            1 => {}
+            samples => write!(f, ", {samples} samples")?,
         }
         if scale < 1.0 {
             write!(f, ", scale {}", three_digits(scale))?;

@@ -32,6 +32,7 @@ pub struct Progressive {
     samples: u32,
     runs: u32,
     samples_at_once: u32,
+    seed: u32,
 }
 
 /// What is known of a pixel.
@@ -80,7 +81,7 @@ impl Progressive {
         let tracer = Tracer::new(device, scene, settings)?;
         let run = tracer.frame()?;
         let estimates = vec![Estimate::default(); run.pixels().len()];
-        Ok(Self { tracer, run, estimates, samples: 0, runs: 0, samples_at_once: SAMPLES_AT_ONCE })
+        Ok(Self { tracer, run, estimates, samples: 0, runs: 0, samples_at_once: SAMPLES_AT_ONCE, seed: settings.seed })
     }
 
     /// Begins anew with another scene, or by other settings of the same size; the pipeline is kept where it fits.
@@ -89,9 +90,14 @@ impl Progressive {
     /// As of [`Tracer::new`].
     pub fn restart(&mut self, scene: &Scene, settings: &Settings) -> Result<(), TracerError> {
         self.tracer.set_scene(scene, settings)?;
-        self.estimates.fill(Estimate::default());
-        (self.samples, self.runs) = (0, 0);
+        self.restart_by_seed(settings.seed);
         Ok(())
+    }
+
+    /// Begins anew with other random numbers; nothing is brought to the device.
+    pub fn restart_by_seed(&mut self, seed: u32) {
+        self.estimates.fill(Estimate::default());
+        (self.samples, self.runs, self.seed) = (0, 0, seed);
     }
 
     /// Samples of each pixel so far.
@@ -110,7 +116,7 @@ impl Progressive {
     ) -> Result<Option<u64>, TracerError> {
         loop {
             let samples = self.samples_at_once.min(most);
-            self.tracer.set_run(Run { first_sample: self.samples, samples });
+            self.tracer.set_run(Run { first_sample: self.samples, samples, seed: self.seed });
             match self.tracer.render(&mut self.run, progress) {
                 // How many iterations paths take is not known before.
                 Err(TracerError::LoopLimitReached { .. }) if samples > 1 => self.samples_at_once = samples / 2,
@@ -121,6 +127,24 @@ impl Progressive {
                 }
             }
         }
+    }
+
+    /// Takes so many samples more of each pixel, in as many runs as it takes; returns the GPU time of all.
+    ///
+    /// # Errors
+    /// As of [`Progressive::add_run`], but the runs before a failure or a stop are kept.
+    pub(crate) fn add(
+        &mut self,
+        samples: u32,
+        keep_going: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> Result<Option<u64>, TracerError> {
+        let all = self.samples + samples;
+        let mut gpu_time_ns = Some(0);
+        while self.samples < all {
+            let of_run = self.add_run(all - self.samples, &mut |_| keep_going())?;
+            gpu_time_ns = gpu_time_ns.zip(of_run).map(|(sum, of_run)| sum + of_run);
+        }
+        Ok(gpu_time_ns)
     }
 
     fn take_in(&mut self, samples: u32) {
@@ -152,11 +176,19 @@ impl Progressive {
     }
 
     /// The picture so far.
+    ///
+    /// # Errors
+    /// No memory for it.
     pub fn frame(&self) -> Result<Frame, TracerError> {
         let mut frame = self.tracer.frame()?;
+        self.show_in(&mut frame);
+        Ok(frame)
+    }
+
+    /// Puts the picture so far into a frame of its size.
+    pub(crate) fn show_in(&self, frame: &mut Frame) {
         let narrow = |mean: DVec3| mean.to_array().map(|channel| channel as f32);
         frame.pixels_mut().iter_mut().zip(self.means()).for_each(|(pixel, mean)| *pixel = narrow(mean));
-        Ok(frame)
     }
 }
 

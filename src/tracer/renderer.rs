@@ -82,6 +82,8 @@ pub(super) trait State: PartialEq {
 pub(super) struct Run {
     pub first_sample: u32,
     pub samples: u32,
+    /// Of its random numbers.
+    pub seed: u32,
 }
 
 /// One sample of each pixel of some parts of a tile.

@@ -9,15 +9,17 @@ use clap::{Args, Parser};
 use jiff::Timestamp;
 
 use super::Progress;
+use crate::command::algorithms::{self, AlgorithmsArgs};
 use crate::command::fps::{FpsArgs, plan};
 use crate::command::stability::{StabilityArgs, kernels};
 use crate::command::trade::{TradeArgs, axes, conditions};
 use crate::command::validate::{Next, ValidateArgs, validated};
 use crate::command::{DeviceArgs, scene_named};
 use crate::gpu::{self, Device, TriedDevice};
+use crate::measure::algorithms::{self as compared, Comparison, pictures_of_a_seed};
 use crate::measure::fps_table::{self, FpsTable, OffScreen};
 use crate::measure::stability::{error_sheet, try_all};
-use crate::measure::trade::{SceneTrade, Step, Sweep, Target, Trade, Truth, TruthError, measure, truth};
+use crate::measure::trade::{SceneTrade, Step, Sweep, Target, Trade, TruePicture, Truth, TruthError, measure, truth};
 use crate::measure::{Machine, SceneMapsError, scene_maps};
 use crate::reference::RenderError;
 use crate::report::{NamedMaps, Report, Section, Stability};
@@ -39,6 +41,7 @@ pub struct Parts {
     validation: ValidateArgs,
     stability: StabilityArgs,
     fps: FpsArgs,
+    algorithms: AlgorithmsArgs,
     trade: TradeArgs,
     lines: Lines,
 }
@@ -47,6 +50,7 @@ struct Lines {
     validation: Line,
     stability: Line,
     fps: Line,
+    algorithms: Line,
     trade: Line,
 }
 
@@ -63,6 +67,7 @@ impl Parts {
                 validation: line("validate --quick"),
                 stability: line("stability --quick -o stability.png"),
                 fps: line("fps --size 405x175 --counts 10,50,100 --seconds 0.25"),
+                algorithms: line("algorithms room behind --size 122x53 --samples 1,16,64 --seeds 4"),
                 trade: line(&format!("trade {scenes} --error 1/510 --size 203x88 --seconds 0.25")),
             }
         } else {
@@ -70,6 +75,7 @@ impl Parts {
                 validation: line("validate"),
                 stability: line("stability --quick -o stability.png"),
                 fps: line("fps"),
+                algorithms: line("algorithms --samples 1,16,256"),
                 trade: line(&format!("trade {scenes} --error 1/510")),
             }
         };
@@ -79,6 +85,7 @@ impl Parts {
             validation: lines.validation.parse()?,
             stability: lines.stability.parse()?,
             fps: lines.fps.parse()?,
+            algorithms: lines.algorithms.parse()?,
             trade: lines.trade.parse()?,
             lines,
         })
@@ -100,6 +107,11 @@ impl Parts {
             "zerkalo compare reference.exr picture.exr".to_owned(),
         ];
         let fps = FpsTable::new(machine.clone(), plan(&self.fps, None));
+        let algorithms = Comparison {
+            machine: machine.clone(),
+            conditions: algorithms::conditions(&self.algorithms),
+            scenes: Vec::new(),
+        };
         let trade = Trade { machine: machine.clone(), conditions: conditions(&self.trade), scenes: Vec::new() };
         Report {
             machine,
@@ -110,6 +122,7 @@ impl Parts {
             validation: Section::new(vec![self.lines.validation.to_string()], None),
             stability: Section::new(vec![self.lines.stability.to_string()], Stability::default()),
             fps: Section::new(vec![self.lines.fps.to_string()], fps),
+            algorithms: Section::new(vec![self.lines.algorithms.to_string()], algorithms),
             trade: Section::new(vec![self.lines.trade.to_string()], trade),
         }
     }
@@ -226,6 +239,22 @@ pub fn fps(table: &mut FpsTable, device: &Arc<Device>, progress: &Progress) -> R
     Ok(())
 }
 
+pub fn algorithms(comparison: &mut Comparison, parts: &Parts, device: &Arc<Device>, progress: &Progress) -> Result<()> {
+    let names = &parts.algorithms.scenes;
+    let pictures = f64::from(pictures_of_a_seed() * comparison.conditions.seeds);
+    for (place, name) in names.iter().enumerate() {
+        let scene = scene_named(name)?;
+        let measured = compared::measure(device, name, &scene, &comparison.conditions, &mut |step| match step {
+            compared::Step::Picture { done } => {
+                progress.at((place as f64 + f64::from(done) / pictures) / names.len() as f64, name)
+            }
+            compared::Step::Part => progress.go_on(),
+        })?;
+        comparison.scenes.push(measured);
+    }
+    Ok(())
+}
+
 pub fn trade(trade: &mut Trade, parts: &Parts, device: &Arc<Device>, progress: &Progress) -> Result<()> {
     let names = &parts.trade.scenes;
     for (place, name) in names.iter().enumerate() {
@@ -239,6 +268,7 @@ pub fn trade(trade: &mut Trade, parts: &Parts, device: &Arc<Device>, progress: &
         /// Share of a scene's time that the reference takes.
         const TRUTH: f64 = 0.1;
         let truth = true_picture(&scene, size, conditions.target, &|share| at(TRUTH * share, "the reference"))?;
+        let truth = TruePicture::Reference(truth);
         scenes.push(SceneTrade::new(name, &scene, &sweep));
         // invariant: it was pushed just now.
         let measured = scenes.last_mut().expect("a scene");

@@ -19,7 +19,7 @@ pub struct Watch {
 }
 
 /// All weights together.
-const ALL: f64 = 243.0;
+const ALL: f64 = 258.0;
 
 impl Watch {
     pub fn start() -> Self {
@@ -59,6 +59,6 @@ impl Progress<'_> {
 
     /// Breaks after Ctrl-C.
     pub fn go_on(&self) -> ControlFlow<()> {
-        if self.listener.stop_requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        self.listener.keep_going()
     }
 }

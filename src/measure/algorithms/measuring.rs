@@ -65,9 +65,8 @@ pub fn measure(
         tracer.draw(&mut || progress(Step::Part))?;
         frames.push((tracer, Series { algorithm, samples, pictures: Vec::new() }));
     }
-    let by_seed = |seed| plan(&RenderSettings { seed, ..PATH });
-    let mut paths = Progressive::new(device, scene, &by_seed(0)?)?;
-    paths.add_run(1, &mut |_| progress(Step::Part))?;
+    let mut paths = Progressive::new(device, scene, &plan(&PATH)?)?;
+    paths.add(1, &mut || progress(Step::Part))?;
     let of_samples = |&samples: &u32| Series { algorithm: Algorithm::Path, samples, pictures: Vec::new() };
     let mut at_samples: Vec<Series> = conditions.samples.iter().map(of_samples).collect();
 
@@ -80,15 +79,12 @@ pub fn measure(
             done += 1;
             stop_if_asked(progress(Step::Picture { done }))?;
         }
-        paths.restart(scene, &by_seed(seed)?)?;
+        paths.restart_by_seed(seed);
         let mut time_ns = 0;
         for series in &mut at_samples {
-            while paths.samples() < series.samples {
-                let begun = Instant::now();
-                let most = series.samples - paths.samples();
-                let gpu_time_ns = paths.add_run(most, &mut |_| progress(Step::Part))?;
-                time_ns += gpu_time_ns.unwrap_or(begun.elapsed().as_nanos() as u64);
-            }
+            let begun = Instant::now();
+            let gpu_time_ns = paths.add(series.samples - paths.samples(), &mut || progress(Step::Part))?;
+            time_ns += gpu_time_ns.unwrap_or(begun.elapsed().as_nanos() as u64);
             series.pictures.push(Drawn { pixels: paths.means().collect(), time_ns });
         }
         done += 1;

@@ -13,8 +13,11 @@ mod tables;
 
 use serde::Serialize;
 
+pub(crate) use chart::chart;
 pub use measuring::{Step, measure, pictures_of_a_seed};
+pub(crate) use ranks::ranks;
 pub(crate) use sheet::contact_sheet;
+pub(crate) use tables::{figures, verdicts};
 
 use super::{Machine, median};
 use crate::algorithm::Algorithm;

@@ -40,7 +40,7 @@ struct Group {
 }
 
 /// The last that holds is a setting's.
-const GROUPS: [Group; 8] = [
+const GROUPS: [Group; 9] = [
     Group::new("whitted f32", CIRCLE, palette::BLUE, true, |_| true),
     Group::new("whitted f64", SQUARE, palette::VERMILION, true, |setting| setting.precision == Some(Precision::F64)),
     Group::new("plain", TRIANGLE, palette::GREEN, false, |setting| setting.algorithm == Algorithm::Plain),
@@ -48,6 +48,7 @@ const GROUPS: [Group; 8] = [
     Group::new("ssr", DIAMOND, palette::GREEN, false, |setting| setting.algorithm == Algorithm::Ssr),
     Group::new("scale", BAR, palette::ORANGE, false, |setting| setting.scale < 1.0),
     Group::new("samples", HEXAGON, palette::SKY, false, |setting| setting.samples > 1),
+    Group::new("path", CIRCLE, palette::PURPLE, false, |setting| setting.algorithm == Algorithm::Path),
     Group::new("no boxes", DIAMOND, palette::PURPLE, true, |setting| !setting.boxes),
 ];
 
@@ -79,7 +80,7 @@ fn panel(scene: &SceneTrade, Trade { conditions, .. }: &Trade) -> Panel {
     let (figures, answers) = (figures(scene, conditions), answers(scene, conditions));
     // Indices into the points, with error and ms; by error.
     let drawn = figures.iter().enumerate();
-    let drawn = drawn.filter_map(|(place, figures)| Some((place, [figures.largest_error?, figures.time_ns? / 1e6])));
+    let drawn = drawn.filter_map(|(place, figures)| Some((place, [figures.counted_error?, figures.time_ns? / 1e6])));
     let mut drawn: Vec<(usize, [f64; 2])> = drawn.collect();
     drawn.sort_by(|(_, a), (_, b)| a[0].total_cmp(&b[0]).then(b[1].total_cmp(&a[1])));
     let front: Vec<_> = drawn.iter().copied().filter(|(place, _)| figures[*place].is_on_front).collect();
@@ -126,8 +127,13 @@ fn panel(scene: &SceneTrade, Trade { conditions, .. }: &Trade) -> Panel {
     lines.push(Line { stroke: FRONT, path: steps });
 
     let x_label = match (conditions.target, conditions.counted) {
-        (Target::Point, Counted::AllPixels) => "largest error of a channel · наибольшая ошибка",
-        (Target::Point, Counted::OffDiscontinuities) => "largest error off edges · наибольшая ошибка вне границ",
+        (_, Counted::RootMeanSquare) => "RMSE to all light, of path tracing for 95 % · СКО от полного света",
+        (Target::Point | Target::Radiance { .. }, Counted::AllPixels) => {
+            "largest error of a channel · наибольшая ошибка"
+        }
+        (Target::Point | Target::Radiance { .. }, Counted::OffDiscontinuities) => {
+            "largest error off edges · наибольшая ошибка вне границ"
+        }
         (Target::Area, Counted::AllPixels) => "largest error against area means · наибольшая ошибка от среднего",
         (Target::Area, Counted::OffDiscontinuities) => {
             "largest error off edges, against area means · вне границ, от среднего"

@@ -1,6 +1,6 @@
 //! A made-up measurement for tests.
 
-use super::{Conditions, Counted, LeftOut, PictureError, Point, SceneTrade, Target, Trade};
+use super::{Conditions, Counted, EdgeError, LeftOut, PictureError, Point, SceneTrade, Target, Trade};
 use crate::algorithm::Algorithm;
 use crate::measure::{Budget, Clock, ImageError, Machine};
 use crate::plan::Precision;
@@ -24,6 +24,7 @@ pub fn example() -> Trade {
         solids: 7,
         max_depth: 20,
         clock: Clock::Gpu,
+        truth_standard_error: None,
         points,
         left_out: vec![LeftOut { setting: course, reason: "one light".to_owned() }],
         complete: true,
@@ -64,10 +65,13 @@ fn point(setting: RenderSettings, bound: Option<f64>, error: f64, time_ms: f64) 
         bound,
         error: PictureError {
             image,
-            max_abs_off_discontinuities: Some(error / 10.0).filter(|_| is_finite),
-            discontinuity_pixels: 200,
-            differing_discontinuity_pixels: 10,
+            edges: Some(EdgeError {
+                max_abs_off_discontinuities: Some(error / 10.0).filter(|_| is_finite),
+                discontinuity_pixels: 200,
+                differing_discontinuity_pixels: 10,
+            }),
         },
+        rmse_of_pictures: Vec::new(),
         baseline_samples_ns: vec![10_000_000; 3],
         samples_ns: [0.9, 1.0, 1.1].map(|times| (times * time_ms * 1e6) as u64).to_vec(),
     }

@@ -16,8 +16,8 @@ pub struct Figures {
     pub quartiles_ns: Option<[f64; 2]>,
     /// In parts of the baseline's time.
     pub ratio: Option<f64>,
-    /// Largest error of the pixels that count; `None` where it is infinite or no number.
-    pub largest_error: Option<f64>,
+    /// See [`Point::counted_error`]; `None` where it is infinite or no number.
+    pub counted_error: Option<f64>,
     /// See [`front`].
     pub is_on_front: bool,
 }
@@ -29,14 +29,14 @@ pub fn figures(scene: &SceneTrade, conditions: &Conditions) -> Vec<Figures> {
     let of_point = |(point, is_on_front): (&Point, bool)| {
         let ratios = point.ratios();
         let time_ns = ratios.map(|[_, ratio, _]| ratio * baseline_ns);
-        let largest = point.error.largest(conditions.counted);
+        let error = point.counted_error(conditions.counted);
         Figures {
             name: point.setting.to_string(),
             time_ns,
             frames_per_second: time_ns.map(|time_ns| 1e9 / time_ns.max(1.0)),
             quartiles_ns: ratios.map(|[first, _, third]| [first * baseline_ns, third * baseline_ns]),
             ratio: ratios.map(|[_, ratio, _]| ratio),
-            largest_error: Some(largest).filter(|largest| largest.is_finite()),
+            counted_error: Some(error).filter(|error| error.is_finite()),
             is_on_front,
         }
     };

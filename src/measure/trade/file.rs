@@ -12,13 +12,13 @@ use crate::measure::output::chart::Chart;
 use crate::measure::output::{Document, Table};
 
 /// What the JSON says it is.
-const FORMAT: &str = "zerkalo-trade-1";
+const FORMAT: &str = "zerkalo-trade-2";
 
 /// Columns of CSV.
 const COLUMNS: &str = "scene,setting=name,kernel=setting/kernel,precision=setting/precision,error=setting/error,\
     max_depth=setting/max_depth,boxes=setting/boxes,samples=setting/samples,scale=setting/scale,\
     time_ns,first_quartile_ns=quartiles_ns/0,third_quartile_ns=quartiles_ns/1,of_baseline=ratio,pairs=samples_ns,\
-    frames_per_second,largest_error,max_abs=error/max_abs,\
+    frames_per_second,counted_error,max_abs=error/max_abs,\
     max_abs_off_discontinuities=error/max_abs_off_discontinuities,rmse=error/rmse,psnr_db=error/psnr_db,\
     flip_mean=error/flip_mean,non_finite_pixels=error/non_finite_pixels,\
     discontinuity_pixels=error/discontinuity_pixels,\

@@ -13,6 +13,7 @@ mod example;
 mod figures;
 mod file;
 mod measuring;
+mod radiance;
 mod sweep;
 mod tables;
 mod truth;
@@ -24,34 +25,42 @@ pub use choice::Question;
 pub(crate) use choice::{Candidate, contenders, front};
 pub(crate) use figures::{Answer, Figures, answers, figures};
 pub use measuring::{Step, measure};
+pub use radiance::{Radiance, radiance};
 pub use sweep::{Axes, Planned, Sweep};
-pub(crate) use tables::{asked, settings};
-pub use truth::{Truth, TruthError, truth};
+pub(crate) use tables::{asked, settings, truth_told};
+pub use truth::{TruePicture, Truth, TruthError, truth};
 
-use super::{Budget, Clock, ImageError, Machine, median, quartiles};
+use super::{Budget, Clock, ImageError, Machine, median, prediction_limit, quartiles};
 use crate::scene::Scene;
 use crate::settings::RenderSettings;
 
 /// Which picture is the true one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
-#[serde(rename_all = "lowercase")]
+#[serde(tag = "target", rename_all = "lowercase")]
 pub enum Target {
     /// Colours at the centres of the pixels.
     #[default]
     Point,
     /// Colours of the pixels' areas: the mean of 8x8 points on a grid in each.
     Area,
+    /// All light there is over the pixels' areas, by path tracing.
+    Radiance {
+        /// Of each pixel.
+        truth_samples: u32,
+    },
 }
 
-/// Which pixels' largest error is the error of a picture.
+/// What the error of a picture is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Counted {
-    /// Discontinuities count, too.
+    /// The largest of a channel, discontinuities too.
     #[default]
     AllPixels,
-    /// Without discontinuities: pixels beside one whose ray goes another way.
+    /// The largest of a channel without discontinuities: pixels beside one whose ray goes another way.
     OffDiscontinuities,
+    /// Root of the mean square over all channels: the largest of a noisy picture says more of its size than of its noise.
+    RootMeanSquare,
 }
 
 /// What is the same for all scenes.
@@ -62,8 +71,9 @@ pub struct Conditions {
     /// Pixels.
     pub height: u32,
     /// What errors are measured against.
+    #[serde(flatten)]
     pub target: Target,
-    /// Which pixels decide.
+    /// Which error decides.
     pub counted: Counted,
     /// Budget of a setting's pairs.
     pub budget: Budget,
@@ -79,6 +89,14 @@ pub struct PictureError {
     /// Error of linear values over all pixels, as `zerkalo compare` reports it.
     #[serde(flatten)]
     pub image: ImageError,
+    /// `None` where the truth is path-traced: there many paths go through a pixel.
+    #[serde(flatten)]
+    pub edges: Option<EdgeError>,
+}
+
+/// Error on discontinuities and off them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+pub struct EdgeError {
     /// Largest error of a channel off discontinuities; `None` where it is not finite.
     pub max_abs_off_discontinuities: Option<f64>,
     /// Number of pixels beside one whose ray takes another path.
@@ -87,16 +105,7 @@ pub struct PictureError {
     pub differing_discontinuity_pixels: usize,
 }
 
-impl PictureError {
-    /// The largest of the pixels that count; infinite where a channel is.
-    pub fn largest(&self, counted: Counted) -> f64 {
-        let largest = match counted {
-            Counted::AllPixels => self.image.max_abs.filter(|_| self.image.non_finite_pixels == 0),
-            Counted::OffDiscontinuities => self.max_abs_off_discontinuities,
-        };
-        largest.unwrap_or(f64::INFINITY)
-    }
-
+impl EdgeError {
     /// Share of the discontinuity pixels that differ; 0 where there are none.
     pub fn differing_share(&self) -> f64 {
         self.differing_discontinuity_pixels as f64 / self.discontinuity_pixels.max(1) as f64
@@ -111,8 +120,11 @@ pub struct Point {
     /// What it leaves out changes no linear channel by more: proven, rounding not in it. `None` where nothing is
     /// proven.
     pub bound: Option<f64>,
-    /// Against the target.
+    /// Of its picture, of path tracing the first, against the target.
     pub error: PictureError,
+    /// RMSE of each picture, where chance makes them differ and the RMSE counts.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub rmse_of_pictures: Vec<f64>,
     /// Times of pairs of frames, in order: the baseline's and the setting's.
     pub baseline_samples_ns: Vec<u64>,
     /// GPU or wall time of the setting's frames, by the scene's clock.
@@ -120,6 +132,23 @@ pub struct Point {
 }
 
 impl Point {
+    /// The error that counts; infinite where a channel's is. Of pictures that chance makes, what 19 of 20 of them do not
+    /// exceed, see [`prediction_limit`].
+    pub fn counted_error(&self, counted: Counted) -> f64 {
+        let image = &self.error.image;
+        let of_picture = match counted {
+            Counted::AllPixels => image.max_abs,
+            Counted::OffDiscontinuities => return self.off_discontinuities().unwrap_or(f64::INFINITY),
+            Counted::RootMeanSquare if self.rmse_of_pictures.is_empty() => image.rmse,
+            Counted::RootMeanSquare => prediction_limit(&self.rmse_of_pictures),
+        };
+        of_picture.filter(|_| image.non_finite_pixels == 0).unwrap_or(f64::INFINITY)
+    }
+
+    fn off_discontinuities(&self) -> Option<f64> {
+        self.error.edges?.max_abs_off_discontinuities
+    }
+
     /// The quartiles and the median of the setting's time in parts of the baseline's, pair by pair.
     pub fn ratios(&self) -> Option<[f64; 3]> {
         let pairs = self.samples_ns.iter().zip(&self.baseline_samples_ns);
@@ -147,6 +176,8 @@ pub struct SceneTrade {
     pub max_depth: u32,
     /// Clock of the samples.
     pub clock: Clock,
+    /// Where the truth is path-traced: root of the mean square of its own standard errors.
+    pub truth_standard_error: Option<f64>,
     /// In the order of measuring; the baseline, measured against itself, is the first.
     pub points: Vec<Point>,
     /// Settings that were not measured.
@@ -163,6 +194,7 @@ impl SceneTrade {
             solids: scene.primitives.len(),
             max_depth: scene.max_depth,
             clock: Clock::Gpu,
+            truth_standard_error: None,
             points: Vec::new(),
             left_out: sweep.left_out.clone(),
             complete: false,
@@ -178,7 +210,7 @@ impl SceneTrade {
     pub fn candidates(&self, counted: Counted) -> Vec<Candidate> {
         let baseline_ns = self.baseline_ns().unwrap_or_default() as f64;
         let candidate = |point: &Point| Candidate {
-            error: point.error.largest(counted),
+            error: point.counted_error(counted),
             time_ns: point.ratios().map_or(f64::INFINITY, |[_, ratio, _]| ratio * baseline_ns),
             bound: point.bound,
         };

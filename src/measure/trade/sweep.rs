@@ -18,6 +18,8 @@ pub struct Axes {
     pub generations: Vec<u32>,
     /// Samples a pixel, besides 1.
     pub samples: Vec<u32>,
+    /// Samples a pixel of path tracing.
+    pub path_samples: Vec<u32>,
     /// Scales of the traced picture, besides 1.
     pub scales: Vec<f64>,
     /// What errors are measured against.
@@ -36,14 +38,25 @@ impl Axes {
         errors.sort_by(f64::total_cmp);
         errors.dedup();
         Self {
-            algorithms: Algorithm::deterministic().collect(),
+            algorithms: match target {
+                Target::Point | Target::Area => Algorithm::deterministic().collect(),
+                Target::Radiance { .. } => Algorithm::on_device().collect(),
+            },
             errors,
             shading: Shading::Whitted,
             generations: vec![1, 2, 3, 4, 6, 8, 12, 16, 24, 32],
             samples: match target {
                 // More than the one in the centre are farther from what is there.
                 Target::Point => Vec::new(),
-                Target::Area => vec![2, 4, 8, 16, 32, 64],
+                Target::Area | Target::Radiance { .. } => vec![2, 4, 8, 16, 32, 64],
+            },
+            path_samples: match target {
+                Target::Point | Target::Area => Vec::new(),
+                // Of powers of two the sequence covers a pixel most evenly. More than a quarter of the truth's samples
+                // would be told of an error that is more and more the truth's own: of a quarter, √(1 + 1/4) times theirs.
+                Target::Radiance { truth_samples } => {
+                    (0..u32::BITS).map(|power| 1 << power).filter(|samples| *samples <= truth_samples / 4).collect()
+                }
             },
             scales: vec![0.25, 0.5, 0.75],
             target,
@@ -60,6 +73,18 @@ pub struct Planned {
     pub settings: Settings,
     /// See [`Point::bound`](super::Point::bound).
     pub bound: Option<f64>,
+}
+
+impl Planned {
+    /// Samples of a picture by path tracing; `None` by others.
+    pub fn path_samples(&self) -> Option<u32> {
+        self.setting.algorithm.description().is_statistical.then_some(self.setting.samples)
+    }
+
+    /// Whether both draw the same picture in the same way.
+    fn draws_as(&self, other: &Self) -> bool {
+        self.settings == other.settings && self.path_samples() == other.path_samples()
+    }
 }
 
 /// The settings to measure, the baseline first.
@@ -97,7 +122,7 @@ impl Sweep {
         };
         for setting in candidates(scene, axes) {
             match plan(setting) {
-                Ok(planned) if sweep.planned().any(|earlier| earlier.settings == planned.settings) => {}
+                Ok(planned) if sweep.planned().any(|earlier| earlier.draws_as(&planned)) => {}
                 Ok(planned) => sweep.others.push(planned),
                 Err(error) => sweep.left_out.push(LeftOut { setting, reason: error.to_string() }),
             }
@@ -113,7 +138,7 @@ impl Sweep {
 
 /// Every algorithm that can leave something out, in each precision: exactly; with each allowed error; with each number
 /// of generations; without boxes. In the first of its precisions with each number of samples and at each scale, if it
-/// has those. What can leave out nothing only exactly.
+/// has those. What can leave out nothing only exactly, by path tracing with each number of samples.
 fn candidates(scene: &Scene, axes: &Axes) -> Vec<RenderSettings> {
     let mut rows: Vec<&Description> =
         ALGORITHMS.iter().filter(|row| row.is_on_device() && axes.algorithms.contains(&row.algorithm)).collect();
@@ -140,7 +165,14 @@ fn candidates(scene: &Scene, axes: &Axes) -> Vec<RenderSettings> {
         settings.extend(axes.samples.iter().map(|&samples| RenderSettings { samples, ..base }));
         settings.extend(axes.scales.iter().map(|&scale| RenderSettings { scale, ..base }));
     }
-    settings.extend(others.into_iter().map(|row| of(row, None)));
+    for row in others {
+        if row.is_statistical {
+            let base = of(row, Some(row.precisions[0]));
+            settings.extend(axes.path_samples.iter().map(|&samples| RenderSettings { samples, ..base }));
+        } else {
+            settings.push(of(row, None));
+        }
+    }
     settings
 }
 
@@ -200,6 +232,16 @@ mod tests {
         let of_areas = sweep("corridor", &Axes::full(Target::Area, &[]), &LIMITS);
         assert!(of_areas.planned().all(|planned| planned.bound.is_none()), "a point proves nothing of an area");
         assert!(of_areas.planned().any(|planned| planned.setting.samples == 64));
+    }
+
+    #[test]
+    fn for_all_light_path_tracing_is_swept_by_its_samples_and_nothing_is_proven() {
+        let sweep = sweep("corridor", &Axes::full(Target::Radiance { truth_samples: 1024 }, &[]), &LIMITS);
+        let samples: Vec<_> = sweep.planned().filter_map(Planned::path_samples).collect();
+        assert_eq!(samples, [1, 2, 4, 8, 16, 32, 64, 128, 256]);
+        assert!(sweep.planned().all(|planned| planned.bound.is_none()));
+        assert!(sweep.planned().any(|planned| planned.setting.algorithm == Algorithm::Ssr));
+        assert!(full().algorithms.iter().all(|algorithm| !algorithm.description().is_statistical));
     }
 
     #[test]

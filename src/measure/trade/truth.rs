@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::Target;
+use super::{Radiance, Target};
 use crate::frame::{Frame, FrameError};
 use crate::reference::{self, Image64, PrimaryRays, RenderError, World};
 use crate::scene::Scene;
@@ -22,6 +22,24 @@ pub struct Truth {
     pub frame: Frame,
 }
 
+/// What pictures are measured against.
+pub enum TruePicture {
+    /// By the reference.
+    Reference(Truth),
+    /// By path tracing.
+    Radiance(Radiance),
+}
+
+impl TruePicture {
+    /// As the kernels' frames are stored.
+    pub fn frame(&self) -> &Frame {
+        match self {
+            Self::Reference(truth) => &truth.frame,
+            Self::Radiance(radiance) => &radiance.frame,
+        }
+    }
+}
+
 /// Why there is none.
 #[derive(Debug, thiserror::Error)]
 pub enum TruthError {
@@ -33,7 +51,8 @@ pub enum TruthError {
     Frame(#[from] FrameError),
 }
 
-/// The true picture of a scene, in parallel over rows. `progress` hears of the share that is done.
+/// The true picture of a scene, in parallel over rows; radiance is not for the reference, which gives what is at the
+/// pixels' centres for it, see [`radiance`](super::radiance). `progress` hears of the share that is done.
 pub fn truth(
     scene: &Scene,
     [width, height]: [u32; 2],
@@ -42,7 +61,7 @@ pub fn truth(
 ) -> Result<Truth, TruthError> {
     // Rows of points, those in the centres first.
     let passes = match target {
-        Target::Point => 1,
+        Target::Point | Target::Radiance { .. } => 1,
         Target::Area => 1 + AREA_SIDE * AREA_SIDE,
     };
     let share = |points: f64| points / f64::from(passes * height);

@@ -90,7 +90,7 @@ impl State for WhittedState {
 
     fn set_run(&mut self, run: Run) {
         let frame = &mut self.scene.view_uniforms.frame;
-        (frame.samples_before, frame.samples_at_once) = (run.first_sample, run.samples);
+        (frame.samples_before, frame.samples_at_once, frame.seed) = (run.first_sample, run.samples, run.seed);
     }
 
     fn write_remainder(&mut self, is_remainder: bool) {

@@ -5,9 +5,12 @@ use std::time::Duration;
 
 use zerkalo::algorithm::Algorithm;
 use zerkalo::gpu::{Check, Layer, Messages, SetUpBy, Severity, Validation, tried_devices};
+use zerkalo::measure::algorithms::{self, Comparison};
 use zerkalo::measure::fps_table::{Cell, FpsTable, Plan};
 use zerkalo::measure::stability::Row;
-use zerkalo::measure::trade::{Axes, Conditions, Counted, Question, SceneTrade, Sweep, Target, Trade, measure, truth};
+use zerkalo::measure::trade::{
+    Axes, Conditions, Counted, Question, SceneTrade, Sweep, Target, Trade, TruePicture, measure, truth,
+};
 use zerkalo::measure::{Budget, Machine, scene_maps};
 use zerkalo::report::{Ending, NamedMaps, Report, Section, Stability};
 use zerkalo::scene::gallery;
@@ -42,6 +45,7 @@ pub fn report() -> Report {
         validation: complete("validate", Some(validation())),
         stability: complete("stability", stability()),
         fps: complete("fps", fps(&machine)),
+        algorithms: complete("algorithms", algorithms(&device, &machine)),
         trade: complete("trade", trade(&device, &machine)),
         machine,
     }
@@ -129,6 +133,15 @@ fn fps(machine: &Machine) -> FpsTable {
     table
 }
 
+fn algorithms(device: &TestDevice, machine: &Machine) -> Comparison {
+    let scene = gallery::scene("start").unwrap();
+    let [width, height] = SIZE;
+    let conditions = algorithms::Conditions { width, height, samples: vec![1, 4], seeds: 2, validation: true };
+    let measured =
+        algorithms::measure(device, "start", &scene, &conditions, &mut |_| ControlFlow::Continue(())).unwrap();
+    Comparison { machine: machine.clone(), conditions, scenes: vec![measured] }
+}
+
 fn trade(device: &TestDevice, machine: &Machine) -> Trade {
     let scene = gallery::scene("start").unwrap();
     let axes = Axes {
@@ -137,6 +150,7 @@ fn trade(device: &TestDevice, machine: &Machine) -> Trade {
         errors: vec![0.1],
         generations: vec![1],
         samples: Vec::new(),
+        path_samples: Vec::new(),
         scales: Vec::new(),
         target: Target::Point,
     };
@@ -153,6 +167,7 @@ fn trade(device: &TestDevice, machine: &Machine) -> Trade {
     let sweep = Sweep::of(&scene, &axes, &limits_of(device.description()), SIZE).unwrap();
     let truth = truth(&scene, SIZE, Target::Point, &|_| ControlFlow::Continue(())).unwrap();
     let mut measured = SceneTrade::new("start", &scene, &sweep);
+    let truth = TruePicture::Reference(truth);
     measure(device, &scene, &sweep, &truth, &conditions, &mut measured, &mut |_| ControlFlow::Continue(())).unwrap();
     Trade { machine: machine.clone(), conditions, scenes: vec![measured] }
 }

@@ -63,7 +63,7 @@ fn the_page_is_read_without_a_network_at_every_width_in_both_languages() {
     let broken = "[...document.images].filter(image => !image.complete || image.naturalWidth == 0).length";
     assert_eq!(browser.evaluate(broken), 0);
     assert!(browser.evaluate("document.images.length").as_u64().unwrap() >= 6);
-    assert_eq!(browser.evaluate("document.querySelectorAll('.chart > svg').length"), 2);
+    assert_eq!(browser.evaluate("document.querySelectorAll('.chart > svg').length"), 3);
     let lost = "[...document.querySelectorAll('nav a')].filter(a => !document.querySelector(a.hash)).length";
     assert_eq!(browser.evaluate(lost), 0);
     assert_eq!(browser.evaluate(FOREIGN), 0, "a device's name became a part of the page");
