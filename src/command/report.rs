@@ -127,7 +127,7 @@ fn conclude(report: &Report, path: PathBuf, is_stopped: bool) -> Result<()> {
     let messages = report.validation.content.as_ref().map_or(0, |outcome| outcome.message_count);
     let messages = (messages > 0).then(|| format!("validation had {messages} message(s)"));
     let faults = report.stability.content.rows.iter().filter(|row| row.is_fault()).count();
-    let faults = (faults > 0).then(|| format!("{faults} case(s) failed on the accurate kernel"));
+    let faults = (faults > 0).then(|| format!("{faults} case(s) failed that must be passed"));
     match failed.or(messages).or(faults) {
         Some(what) => Err(Faulty { path, what }.into()),
         None => print_line(&format!("wrote {}", path.display().to_string().escape_debug())),

@@ -17,19 +17,21 @@ pub fn body(stability: &Stability) -> Result<Markup, ReportError> {
             (both(
                 "Scenes and rays at the edge of what numbers can do: tiny and huge, far away, needles and plates, cameras \
                  inside, closed rooms of mirrors. The truth is a tracer in double-double numbers; bounds follow from the \
-                 rounding unit. The accurate kernel (whitted) must pass everything, the other two are there to compare.",
+                 rounding unit. The accurate kernel (whitted) must pass everything, ssr and path what is for every algorithm; course and plain \
+                 are there to compare.",
                 "Сцены и лучи на пределе возможностей чисел: крошечные и огромные, далёкие, иглы и пластины, камера внутри \
                  тела, замкнутые зеркальные комнаты. Истина — трассировщик в числах двойной-двойной точности; границы \
-                 выведены из единицы округления. Точное ядро (whitted) обязано пройти всё, два других — для сравнения.",
+                 выведены из единицы округления. Точное ядро (whitted) обязано пройти всё, ssr и path — то, что для всех алгоритмов; \
+                 course и plain — для сравнения.",
             ))
         }
         p.verdict {
             @if rows.is_empty() {
             } @else if faults.is_empty() {
-                (both("The accurate kernel passes every case that was tried.", "Точное ядро прошло все испытанные случаи."))
+                (both("Every case that must be passed is passed.", "Всё, что обязано быть пройдено, пройдено."))
             } @else {
-                (both(format!("FAILED on the accurate kernel: {}.", faults.len()),
-                    format!("НЕ ПРОЙДЕНО точным ядром: {}.", faults.len())))
+                (both(format!("FAILED, though it must be passed: {}.", faults.len()),
+                    format!("НЕ ПРОЙДЕНО, хотя обязано: {}.", faults.len())))
             }
         }
         (table_of(&summary(rows)))

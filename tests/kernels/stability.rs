@@ -35,6 +35,7 @@ fn wanted() -> Vec<String> {
         ("RF", 17),
         ("EX", 3),
         ("AT", 4),
+        ("AL", 4),
     ];
     let mut ids: Vec<String> = numbered
         .iter()
@@ -83,6 +84,20 @@ fn impossible_scenes_are_refused_by_name() {
     let verdicts: Vec<_> = catalogue().iter().filter_map(|case| Some((case.id.clone(), case.try_loader()?))).collect();
     assert_eq!(verdicts.len(), 12);
     assert!(verdicts.iter().all(|(_, verdict)| verdict.passes()), "{verdicts:#?}");
+}
+
+/// Closed rooms are for path tracing alone: what a mirror shows that the camera does not see is background in screen
+/// space.
+#[test]
+fn screen_space_and_path_tracing_pass_what_is_for_every_algorithm() {
+    let of_all = ["N-0", "IM-3", "FV-1", "FV-2", "AL-1", "AL-2", "AL-3", "AL-4"];
+    for (kernel, more) in [(Kernel::Ssr, &[][..]), (Kernel::Path(Precision::F32), &["MR-1"])] {
+        let verdicts = verdicts(kernel);
+        let ids: HashSet<&str> = verdicts.iter().map(|(id, _)| id.as_str()).collect();
+        assert_eq!(ids, of_all.iter().chain(more).copied().collect(), "{kernel:?}");
+        let failed: Vec<_> = verdicts.iter().filter(|(_, verdict)| !verdict.passes()).collect();
+        assert!(failed.is_empty(), "{kernel:?}: {failed:#?}");
+    }
 }
 
 /// A catalogue that everything passes would prove nothing.

@@ -1,11 +1,10 @@
 //! `zerkalo validate` as a user meets it.
 
-use std::fs;
 use std::process::{Command, Stdio};
 use std::thread;
 use std::time::Duration;
 
-use crate::place::{Place, interrupted};
+use crate::place::interrupted;
 use serde_json::Value;
 
 /// Where there is no display.
@@ -58,23 +57,6 @@ fn everything_drawn_is_drawn_without_a_message_and_every_check_was_on() {
         && remark["count"].as_u64().unwrap() > 0
         && remark["why"].as_str().unwrap().len() > 20));
     assert!(report["layer"]["set_up_by"].as_str().unwrap().starts_with("VK_EXT_"));
-}
-
-#[test]
-fn one_kind_of_checks_is_done_alone() {
-    let place = Place::new();
-    let files = ["json", "csv", "md"].map(|extension| place.path("found").with_extension(extension));
-    let outputs = files.iter().flat_map(|path| ["-o", path.to_str().unwrap()]).collect::<Vec<_>>();
-    let arguments = [&["--quick", "--json", "--validate", "best-practices"][..], &outputs].concat();
-    let output = command(&arguments).output().unwrap();
-    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
-    let [json, csv, markdown] = files.map(|path| fs::read_to_string(path).unwrap());
-    assert_eq!(serde_json::from_str::<Value>(&json).unwrap(), report);
-    assert_eq!(csv, "severity,id,count,text,runs,quick,device,driver\n", "there is no message");
-    assert!(markdown.contains("| best practices |") && markdown.contains("messages: 0"), "{markdown}");
-    assert_eq!((output.status.code(), &report["message_count"]), (Some(0), &0.into()));
-    let passes = report["passes"].as_array().unwrap();
-    assert_eq!((passes.len(), &passes[0]["validation"]), (1, &"best practices".into()));
 }
 
 #[cfg(unix)]

@@ -1,6 +1,7 @@
 //! The catalogue of extremes (docs/numerics.md): what each kernel makes of every case, in units that a tolerance is
 //! stated in.
 
+mod finite;
 mod glass;
 mod judge;
 mod loading;
@@ -22,6 +23,7 @@ pub(crate) use trials::try_all;
 use std::cell::RefCell;
 use std::sync::{Arc, OnceLock};
 
+use crate::algorithm::Description;
 use crate::gpu::Device;
 use crate::tracer::probe::Probe;
 use crate::tracer::{Kernel, Tracer, TracerError};
@@ -103,6 +105,8 @@ pub struct Case {
     /// Such as `DS-3`.
     pub id: String,
     trial: Try,
+    /// Which algorithms it is for.
+    is_for: fn(&Description) -> bool,
 }
 
 impl Case {
@@ -110,11 +114,21 @@ impl Case {
         id: impl Into<String>,
         trial: impl Fn(&Subject) -> Result<Vec<Measured>, TracerError> + 'static,
     ) -> Self {
-        Self { id: id.into(), trial: Try::Kernel(Box::new(trial)) }
+        Self { id: id.into(), trial: Try::Kernel(Box::new(trial)), is_for: Description::casts_rays }
+    }
+
+    /// Also for those whose pictures are not of single rays, or depend on chance.
+    fn for_every_algorithm(self) -> Self {
+        Self { is_for: Description::is_on_device, ..self }
+    }
+
+    /// Also for those whose pictures depend on chance.
+    fn for_chance_too(self) -> Self {
+        Self { is_for: |row| row.casts_rays() || row.is_statistical, ..self }
     }
 
     fn of_loader(id: impl Into<String>, trial: impl Fn() -> Vec<Measured> + 'static) -> Self {
-        Self { id: id.into(), trial: Try::Loader(Box::new(trial)) }
+        Self { id: id.into(), trial: Try::Loader(Box::new(trial)), is_for: |_| false }
     }
 
     /// Letters before the number: cases of one kind.
@@ -130,8 +144,8 @@ impl Case {
     /// `None` where the case is not for this kernel, or is not about kernels.
     pub fn try_kernel(&self, subject: &Subject) -> Result<Option<Verdict>, TracerError> {
         match &self.trial {
-            Try::Kernel(trial) => Ok(Verdict::of(trial(subject)?)),
-            Try::Loader(_) => Ok(None),
+            Try::Kernel(trial) if (self.is_for)(subject.kernel.description()) => Ok(Verdict::of(trial(subject)?)),
+            Try::Kernel(_) | Try::Loader(_) => Ok(None),
         }
     }
 
@@ -174,5 +188,6 @@ pub fn catalogue() -> Vec<Case> {
         .chain(pictures::cases())
         .chain(glass::cases())
         .chain(reported::cases())
+        .chain(finite::cases())
         .collect()
 }

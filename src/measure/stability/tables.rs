@@ -89,6 +89,7 @@ fn group_name(id: &str) -> Words {
         "WD" => ("wide grounds", "широкие основания"),
         "MS" => ("mixed scales", "разные масштабы"),
         "LP" => ("lights in planes of faces", "свет в плоскости грани"),
+        "AL" => ("every algorithm: odd sizes, cameras inside", "все алгоритмы: необычные размеры, камера внутри"),
         "LR" => ("scenes within a light's sphere", "сцены внутри сферы источника"),
         _ => return id.into(),
     };
@@ -105,6 +106,7 @@ fn russian(what: &str) -> &str {
         "pixels of solids too few to prove anything" => "слишком мало пикселей тел, чтобы судить",
         "pixels other than the background" => "пиксели, отличные от фона",
         "pixels that depend on the tiling" => "пиксели, зависящие от разбиения на плитки",
+        "pixels with NaN, infinity or less than no light" => "пиксели с NaN, бесконечностью или отрицательным светом",
         "pixels with NaN or infinity" => "пиксели с NaN или бесконечностью",
         "rays that escape from a closed room" => "лучи, ушедшие из замкнутой комнаты",
         "rays that meet again what they leave" => "лучи, вновь попавшие туда, откуда вышли",
