@@ -5,6 +5,9 @@ const uint PLACE_IN_PIXEL = 0u;
 uint choice_of(uint generation) { return 2u * generation; }
 uint direction_of(uint generation) { return 2u * generation + 1u; }
 
+// A decision more of each generation; the others are far fewer.
+uint light_of(uint generation) { return 0x80000000u + generation; }
+
 // Below this weight Russian roulette ends paths; docs/path-tracing.md has the figures that chose it.
 const Real ROULETTE_WEIGHT = 0.25;
 
@@ -59,6 +62,8 @@ void go_on(inout Path path) {
     path.origin_surface = OriginSurface(hit.slot, hit.face, MEDIA != NO_MEDIA && goes_through ? is_inside : hit.inside);
     path.purpose = TO_NEAREST;
 }
+
+Real choice_of_light(Path path) { return pair(light_of(path.generation)).x; }
 
 // All light that comes from everywhere comes by paths.
 Real3 ambient_radiance(Material material, View view) { return Real3(0.0); }

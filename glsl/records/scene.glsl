@@ -111,8 +111,9 @@ layout(constant_id = 12) const uint CONE_LEVELS = 0u;
 layout(constant_id = 20) const bool IS_CLOSE_UP = false;
 // What there is not, or the plan has left out.
 layout(constant_id = 13) const bool HAS_HIGHLIGHTS = true;
-layout(constant_id = 14) const uint LIGHTS = 2u; // none, one, or several
+layout(constant_id = 14) const uint LIGHTS = 2u; // none, one, several, or many (3)
 layout(constant_id = 15) const bool HAS_SHADOWS = true;
+const bool CHOOSES_LIGHT = LIGHTS == 3u && HAS_SHADOWS; // a hit's shadow ray goes to one of many
 layout(constant_id = 16) const bool HAS_REFLECTIONS = true;
 layout(constant_id = 17) const uint LIGHT_SPHERES = 2u; // of lights, that primary rays may see: as many
 layout(constant_id = 21) const bool HAS_SHININESS = false;    // highlights of other exponents than 5

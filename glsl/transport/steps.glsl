@@ -5,6 +5,8 @@
 void end_generation(inout Path path);
 // What a surface sends back of light that comes from everywhere, before its lights.
 Real3 ambient_radiance(Material material, View view);
+// Between 0 and 1, by chance: which of many lights the hit's shadow ray goes to.
+Real choice_of_light(Path path);
 
 // A search for what the ray's origin lies in, besides the solid whose surface it leaves: its limit, 0, only lets pass
 // what the origin lies in.
@@ -143,9 +145,15 @@ Real brightest(Real3 weight, Real3 radiance) { return largest_component(weight *
 // A packet's rays stay together here, and read no light beyond the last, which would be undefined: as a loop within the
 // branch of those that are done, reading one too many, Mesa 22.3 drew tests/scenes/three_lights.toml wrong. Either
 // change alone cures that; what it came from is not known.
+//
+// Of many lights, one is chosen in proportion to the brightest channel of what it gives where nothing hides it, in a
+// single pass: each in turn takes the place of the one before with its share of the sum so far, and the number that
+// decided is spread over 0 to 1 again. Its light then stands for all.
 bool casts_shadow_ray(bool is_done, inout Path path) {
+    Real choice = 0.0, sum = 0.0;
     bool is_lit = false;
     if (LIGHTS > 0u) {
+        if (CHOOSES_LIGHT) choice = choice_of_light(path);
         bool is_seeking = is_done && path.is_hit && path.light_index < frame.light_count;
         for (;;) {
             iterations++;
@@ -161,21 +169,30 @@ bool casts_shadow_ray(bool is_done, inout Path path) {
                                            cosine, next);
             // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
             bool is_faint = brightest(path.weight, direct) <= Real(frame.min_shadowed);
-            if (HAS_SHADOWS && shines && !is_faint) {
+            bool is_chosen = true;
+            if (CHOOSES_LIGHT) {
+                Real before = sum, gives = shines ? largest_component(direct) : Real(0.0);
+                sum = min(before + gives, LARGEST);
+                Real place = choice * sum;
+                is_chosen = gives > 0.0 && (place < gives || before == 0.0);
+                if (gives > 0.0) choice = is_chosen ? place / gives : (place - gives) / before;
+            }
+            if (HAS_SHADOWS && shines && !is_faint && is_chosen) {
                 is_lit = true;
                 path.light = next;
                 path.light_distance = light_distance;
                 path.ray = Ray(path.nearest.point, Real3(0.0), to_light);
                 path.direct = direct;
-            } else if (shines) {
+            } else if (shines && !CHOOSES_LIGHT) {
                 add_light(path.light_index, is_faint ? Real3(0.5) * direct : direct, path);
             }
             path.light_index += is_seeking ? 1u : 0u;
-            is_seeking = is_seeking && !is_lit && path.light_index < frame.light_count;
+            is_seeking = is_seeking && (CHOOSES_LIGHT || !is_lit) && path.light_index < frame.light_count;
             if (LIGHTS == 1u || !any_of_packet(is_seeking)) break;
         }
     }
     if (is_lit) {
+        if (CHOOSES_LIGHT) path.direct *= sum / largest_component(path.direct);
         path.purpose = TO_LIGHT;
         path.search = search_up_to(up_to(path.light_distance), path.origin_surface);
     }

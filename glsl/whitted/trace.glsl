@@ -60,6 +60,9 @@ void end_generation(inout Path path) {
     }
 }
 
+// A ray goes to each.
+Real choice_of_light(Path path) { return 0.0; }
+
 Real3 ambient_radiance(Material material, View view) {
     Real3 radiance = material.ambient * material.color;
     if (HAS_AMBIENT_LIGHT) radiance = limited(radiance * view.ambient_light);

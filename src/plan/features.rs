@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::solids::is_rotated;
 use super::{LightFeatures, Media, Plan, Structure};
-use crate::algorithm::Precision;
+use crate::algorithm::{Description, Precision};
 use crate::scene::{BoundingSphere, Primitive, SceneSpace, SolidKind};
 use crate::settings::Numbers;
 
@@ -23,7 +23,7 @@ pub struct Features {
     pub highlights: bool,
     /// Whose light spheres primary rays may see: none, one, or several (2).
     pub light_spheres: u32,
-    /// That brighten: as many.
+    /// That brighten: none, one, several (2), or many (3), of which a hit's shadow ray goes to one by chance.
     pub lights: u32,
     /// Shadow rays are traced.
     pub shadows: bool,
@@ -83,7 +83,7 @@ impl Plan {
             is_close_up: self.close_up.is_some(),
             highlights: self.highlights.choice,
             light_spheres: if self.light_spheres.choice > 0 { self.all_lights.min(2) as u32 } else { 0 },
-            lights: self.lights.choice.min(2) as u32,
+            lights: lights_told_apart(self.kernel.description(), self.lights.choice as u32),
             shadows: self.shadows.choice,
             reflections: self.generations.choice > 1,
             samples: self.settings.samples > 1,
@@ -98,6 +98,14 @@ impl Plan {
             independent_numbers: self.settings.numbers == Numbers::Independent,
         }
     }
+}
+
+/// From so many lights on, path tracing chooses one a hit: docs/path-tracing.md has the figures.
+const MANY_LIGHTS: u32 = 3;
+
+/// What a kernel is compiled for that has so many lights, see [`Features::lights`].
+pub(crate) fn lights_told_apart(algorithm: &Description, lights: u32) -> u32 {
+    if algorithm.is_statistical && lights >= MANY_LIGHTS { 3 } else { lights.min(2) }
 }
 
 /// A path may leave one ray behind in each generation but the last.

@@ -83,6 +83,9 @@ impl Plan {
         let saves = match self.lights.choice {
             0 => Some("all shading by lights"),
             1 => Some("the loop over lights"),
+            _ if self.shadows.choice && self.features().lights == 3 => {
+                Some("a shadow ray to each: every hit's goes to one of them, by what it may give")
+            }
             _ => None,
         };
         Line::new("lights", none_or(self.lights.choice), &self.lights, saves)

@@ -32,7 +32,7 @@ pub use crate::algorithm::Precision;
 pub(crate) use arrays::{VIEW_ROWS, solid_row_count};
 pub use budget::{Approximations, Bounds};
 pub use features::Features;
-pub(crate) use features::most_pending;
+pub(crate) use features::{lights_told_apart, most_pending};
 pub use lengths::scene_space;
 pub(crate) use lengths::scene_space_within;
 pub(crate) use light_model::may_be_in_a_solid;

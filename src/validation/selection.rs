@@ -85,7 +85,7 @@ fn states(run: &Run) -> Option<[State; 22]> {
         // Other integers, no other work.
         independent_numbers: _,
         light: LightFeatures { shininess, attenuation, ambient_light, media },
-    } = Features::of(&records, &approximations, max_depth);
+    } = Features::of(&records, kernel.description(), &approximations, max_depth);
     Some([
         ("spheres", spheres),
         ("boxes", boxes),

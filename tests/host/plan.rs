@@ -486,19 +486,22 @@ fn any_scene(random: &mut crate::random::Random) -> Scene {
 fn a_kernel_is_compiled_for_what_the_plan_says() {
     let mut random = crate::random::Random(17);
     let (mut small, mut dark, mut close_up) = (0, 0, 0);
-    let (mut apart, mut nested, mut other_light) = (0, 0, 0);
+    let (mut apart, mut nested, mut many_lights, mut other_light) = (0, 0, 0, 0);
     for number in 0..1000 {
         let scene = any_scene(&mut random);
         if scene.validate().is_err() {
             continue;
         }
         let precision = if number % 2 == 0 { Precision::F32 } else { Precision::F64 };
-        let error = if number % 3 == 0 { 0.01 } else { 0.0 };
-        let samples = 1 + number % 5 / 4;
-        let settings = RenderSettings { precision: Some(precision), error, samples, ..RenderSettings::default() };
+        let is_path = number % 4 == 3;
+        let algorithm = if is_path { Algorithm::Path } else { Algorithm::Whitted };
+        let error = if number % 3 == 0 && !is_path { 0.01 } else { 0.0 };
+        let samples = if is_path { 1 } else { 1 + number % 5 / 4 };
+        let settings =
+            RenderSettings { algorithm, precision: Some(precision), error, samples, ..RenderSettings::default() };
         let plan = Plan::for_scene(&scene, &settings, [64, 28], &DEVICE).unwrap();
-        let records = WhittedRecords::of(&scene, scene_space(&scene, Kernel::Whitted(precision)), precision, [64, 28]);
-        let compiled = Features::of(&records, &plan.approximations, plan.generations.choice);
+        let records = WhittedRecords::of(&scene, scene_space(&scene, plan.kernel), precision, [64, 28]);
+        let compiled = Features::of(&records, plan.kernel.description(), &plan.approximations, plan.generations.choice);
         let compiled = Features { pixels: plan.pixels.choice, samples: samples > 1, ..compiled };
         assert_eq!(plan.features(), compiled, "scene {number}: {scene:?}");
         assert_eq!(plan.counts.map(|count| count as u32), records.solids.counts, "scene {number}");
@@ -507,8 +510,10 @@ fn a_kernel_is_compiled_for_what_the_plan_says() {
         close_up += usize::from(plan.close_up.is_some());
         apart += usize::from(compiled.light.media == Media::Apart);
         nested += usize::from(compiled.light.media == Media::Nested);
+        many_lights += usize::from(compiled.lights == 3);
         other_light += usize::from(LightFeatures { media: Media::None, ..compiled.light } != LightFeatures::default());
     }
     assert!(small > 5 && dark > 50 && close_up > 20, "{small} {dark} {close_up}: each kind is there");
     assert!(apart > 20 && nested > 20 && other_light > 100, "{apart} {nested} {other_light}: each kind is there");
+    assert!(many_lights > 5, "{many_lights}");
 }

@@ -74,7 +74,7 @@ fn reached(device: &TestDevice, kernel: &Kernel, scene: &Scene, precision: Preci
         precision,
         [SIZE.0, SIZE.1],
     );
-    let features = Features::of(&records, &plan.approximations, plan.generations.choice);
+    let features = Features::of(&records, plan.kernel.description(), &plan.approximations, plan.generations.choice);
     kernel.reached(&features.constants(device, precision, plan.workgroup.choice).unwrap())
 }
 

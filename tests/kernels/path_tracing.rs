@@ -170,6 +170,24 @@ fn matt_scene() -> Scene {
     scene
 }
 
+/// Where a shadow ray goes to one of the lights: unequal ones, of which one fades, one is dark and one within a solid.
+fn many_lights() -> Scene {
+    let mut scene = matt_scene();
+    scene.background = DVec3::splat(0.05);
+    scene.primitives[0].material.specular = 0.4;
+    let place = |index: usize| dvec3(index as f64 * 1.3 - 4.0, 1.0 + (index % 3) as f64, -3.0 + (index % 4) as f64);
+    let light = |index: usize| Light {
+        position: place(index),
+        intensity: dvec3(0.1, 0.2, 0.15) * (1.0 + (index % 5) as f64),
+        ..Light::default()
+    };
+    scene.lights = (0..8).map(light).collect();
+    scene.lights[2].intensity = DVec3::ZERO;
+    scene.lights[4].distance_constant = Some(0.5);
+    scene.lights[6].position = scene.primitives[1].solid.position();
+    scene
+}
+
 const SMALL: [u32; 2] = [36, 24];
 
 fn rms_difference(picture: &Progressive, truth: &[DVec3]) -> f64 {
@@ -225,7 +243,7 @@ fn pictures_are_those_of_the_reference_on_the_cpu() {
     const SEEDS: u32 = 64;
     let several = gallery::scene("several").unwrap();
     let scenes = ["showcase", "glass"].map(|name| gallery::scene(name).unwrap());
-    for mut scene in scenes.into_iter().chain([matt_scene(), several]) {
+    for mut scene in scenes.into_iter().chain([matt_scene(), several, many_lights()]) {
         scene.max_depth = 6;
         let [width, height] = SMALL;
         let cpu = path_trace(&scene, width, height, 256, 1, &|_| ControlFlow::Continue(())).unwrap();

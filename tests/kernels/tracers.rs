@@ -38,7 +38,7 @@ impl Made {
             || TraversalCost::of(&scene.primitives).pixels_per_invocation(scene.lights.len(), depth, unknown);
         let features = Features {
             pixels: pixels.unwrap_or_else(with_pixels_per_invocation),
-            ..Features::of(&records, &settings.approximations, depth)
+            ..Features::of(&records, kernel.description(), &settings.approximations, depth)
         };
         Self { kernel, features, size: [width, height], workgroup, without_boxes, has_samples: samples > 1 }
     }

@@ -3,15 +3,22 @@
 use std::sync::Arc;
 
 use super::records::WhittedRecords;
+use crate::algorithm::Description;
 use crate::gpu::{Device, DeviceKind, FloatWidth, GpuError, arithmetic};
-use crate::plan::{Approximations, CPU_MAX_ITERATIONS, Features, LightFeatures, Precision, most_pending};
+use crate::plan::{
+    Approximations, CPU_MAX_ITERATIONS, Features, LightFeatures, Precision, lights_told_apart, most_pending,
+};
 
 impl Features {
     /// Features of an exact picture, or of what `approximations` leave of it, as a scene's records have it.
-    pub fn of(records: &WhittedRecords, approximations: &Approximations, max_depth: u32) -> Self {
+    pub fn of(
+        records: &WhittedRecords,
+        algorithm: &Description,
+        approximations: &Approximations,
+        max_depth: u32,
+    ) -> Self {
         let lights = |matter: bool, count: u32| if matter { count.min(2) } else { 0 };
-        let lights_that_shine = lights(approximations.lights, records.light_count);
-        let has_lights = lights_that_shine > 0;
+        let has_lights = approximations.lights && records.light_count > 0;
         let media = records.light.media.seen_by(max_depth);
         Self {
             kinds: records.solids.counts.map(|count| count > 0),
@@ -20,7 +27,7 @@ impl Features {
             is_close_up: records.solids.frame.is_close_up,
             highlights: approximations.highlights && has_lights,
             light_spheres: lights(approximations.light_spheres, records.light_sphere_count),
-            lights: lights_that_shine,
+            lights: if has_lights { lights_told_apart(algorithm, records.light_count) } else { 0 },
             shadows: approximations.shadows && has_lights,
             reflections: approximations.reflections && max_depth > 1,
             samples: false,

@@ -203,7 +203,7 @@ impl WhittedScene {
             samples_at_once: 1,
             padding: [0; 2],
         };
-        let exact = Features::of(&records, &approximations, generations);
+        let exact = Features::of(&records, kernel.description(), &approximations, generations);
         let levels = if settings.without_boxes { [0; 4] } else { exact.levels };
         let features = Features {
             levels,
