@@ -140,13 +140,17 @@ bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path pat
 Real brightest(Real weight, Real3 radiance) { return weight * largest_component(radiance); }
 Real brightest(Real3 weight, Real3 radiance) { return largest_component(weight * radiance); }
 
+// The least brightness that is chosen by.
+const Real LEAST_CHOSEN = 1e-30;
+
 // Of a ray that has come to its end: on to the next light that a shadow ray is worth, if there is one.
 //
 // A packet's rays stay together here, and read no light beyond the last, which would be undefined: as a loop within the
 // branch of those that are done, reading one too many, Mesa 22.3 drew tests/scenes/three_lights.toml wrong. Either
 // change alone cures that; what it came from is not known.
 //
-// Of many lights, one is chosen in proportion to the brightest channel of what it gives where nothing hides it, in a
+// Of many lights, one is chosen in proportion to the brightest channel of what it adds to the pixel where nothing hides
+// it, in a
 // single pass: each in turn takes the place of the one before with its share of the sum so far, and the number that
 // decided is spread over 0 to 1 again. Its light then stands for all.
 bool casts_shadow_ray(bool is_done, inout Path path) {
@@ -171,13 +175,16 @@ bool casts_shadow_ray(bool is_done, inout Path path) {
             bool is_faint = brightest(path.weight, direct) <= Real(frame.min_shadowed);
             bool is_chosen = true;
             if (CHOOSES_LIGHT) {
-                Real before = sum, gives = shines ? largest_component(direct) : Real(0.0);
+                direct = limited(direct);
+                Real before = sum, gives = brightest(path.weight, direct);
+                // What is next to nothing is none: quotients of the least numbers are none.
+                if (!shines || gives < LEAST_CHOSEN) gives = 0.0;
                 sum = min(before + gives, LARGEST);
                 Real place = choice * sum;
                 is_chosen = gives > 0.0 && (place < gives || before == 0.0);
                 if (gives > 0.0) choice = is_chosen ? place / gives : (place - gives) / before;
             }
-            if (HAS_SHADOWS && shines && !is_faint && is_chosen) {
+            if (HAS_SHADOWS && shines && (CHOOSES_LIGHT || !is_faint) && is_chosen) {
                 is_lit = true;
                 path.light = next;
                 path.light_distance = light_distance;
@@ -192,7 +199,8 @@ bool casts_shadow_ray(bool is_done, inout Path path) {
         }
     }
     if (is_lit) {
-        if (CHOOSES_LIGHT) path.direct *= sum / largest_component(path.direct);
+        // Divided first, so that no factor overflows.
+        if (CHOOSES_LIGHT) path.direct = limited((path.direct / brightest(path.weight, path.direct)) * sum);
         path.purpose = TO_LIGHT;
         path.search = search_up_to(up_to(path.light_distance), path.origin_surface);
     }

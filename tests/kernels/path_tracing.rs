@@ -175,10 +175,13 @@ fn many_lights() -> Scene {
     let mut scene = matt_scene();
     scene.background = DVec3::splat(0.05);
     scene.primitives[0].material.specular = 0.4;
+    scene.primitives[2].material.color = DVec3::X;
+    scene.primitives[3].material.color = dvec3(0.0, 0.8, 0.1);
     let place = |index: usize| dvec3(index as f64 * 1.3 - 4.0, 1.0 + (index % 3) as f64, -3.0 + (index % 4) as f64);
     let light = |index: usize| Light {
         position: place(index),
-        intensity: dvec3(0.1, 0.2, 0.15) * (1.0 + (index % 5) as f64),
+        // Of all colours, so that what a coloured surface sends back of one may be nothing.
+        intensity: [DVec3::X, DVec3::Y, dvec3(0.5, 0.7, 0.4)][index % 3] * (0.2 + 0.2 * (index % 5) as f64),
         ..Light::default()
     };
     scene.lights = (0..8).map(light).collect();
@@ -328,6 +331,19 @@ fn pictures_of_any_size_are_of_numbers_from_within_solids_too() {
             assert_eq!(picture.means().count() as u32, size[0] * size[1]);
             assert!(picture.means().all(|mean| mean.is_finite() && mean.min_element() >= 0.0), "{size:?}");
         }
+    }
+}
+
+#[test]
+fn many_lights_as_bright_as_numbers_go_or_next_to_none_give_numbers() {
+    let device = TestDevice::open();
+    for intensity in [3e38, 1e30, 1e-30, 1e-38] {
+        let mut scene = many_lights();
+        for light in &mut scene.lights {
+            light.intensity = light.intensity.map(|channel| channel.min(1.0) * intensity);
+        }
+        let picture = drawn(&device, &scene, &PATH, SMALL, 8);
+        assert!(picture.means().all(|mean| mean.is_finite() && mean.min_element() >= 0.0), "{intensity}");
     }
 }
 
