@@ -7,14 +7,20 @@ use std::path::{Path, PathBuf};
 use std::sync::mpsc::{self, Receiver};
 use std::time::{Duration, SystemTime};
 
-use crate::gpu::{Shader, compile, shaders, variants};
+use rayon::prelude::*;
+
+use crate::gpu::{Shader, compile, kernel_name, shaders, variants};
 
 /// Between two looks at the sources.
 const PERIOD: Duration = Duration::from_millis(200);
 
 /// Every build of the kernels that a window draws by, by their files under `glsl/` without the ending.
-const DRAWING: [(&str, &[&Shader]); 2] = [
+const DRAWING: [(&str, &[&Shader]); 6] = [
     ("course", &[&shaders::COURSE]),
+    ("path", &[&shaders::PATH_F32, &shaders::PATH_F64, &shaders::PATH_F32_PACKETS, &shaders::PATH_F64_PACKETS]),
+    ("ssr/depths", &[&shaders::SSR_DEPTHS]),
+    ("ssr/light", &[&shaders::SSR_LIGHT, &shaders::SSR_LIGHT_PACKETS]),
+    ("ssr/reflect", &[&shaders::SSR_REFLECT]),
     (
         "whitted",
         &[
@@ -65,18 +71,20 @@ impl ShaderWatch {
 }
 
 fn build_all(sources: &Path) -> Outcomes {
-    let of_kernel = |(kernel, own): (&'static str, &'static [&'static Shader])| {
-        own.iter().map(move |own| build(sources, kernel, own).map_err(|error| error.to_string()))
-    };
-    DRAWING.into_iter().flat_map(of_kernel).collect()
+    let of_kernel = |(file, own): (&'static str, &'static [&'static Shader])| own.iter().map(move |own| (file, *own));
+    let all: Vec<_> = DRAWING.into_iter().flat_map(of_kernel).collect();
+    let build = |(file, own)| build(sources, file, own).map_err(|error| error.to_string());
+    all.into_par_iter().map(build).collect()
 }
 
 /// As build.rs made one of the program's own.
-fn build(sources: &Path, kernel: &str, own: &Shader) -> Result<Shader, Box<dyn Error>> {
-    let is_own = |suffix: &str| own.name.strip_prefix(kernel) == Some(suffix);
-    let variant = variants(kernel).iter().find(|variant| is_own(variant.suffix));
-    let variant = *variant.ok_or_else(|| format!("{kernel}.comp has no variant {}", own.name))?;
-    let artifact = compile(sources, Path::new(&format!("{kernel}.comp")), variant, cfg!(debug_assertions))?;
+fn build(sources: &Path, file: &str, own: &Shader) -> Result<Shader, Box<dyn Error>> {
+    let file = PathBuf::from(format!("{file}.comp"));
+    let kernel = kernel_name(&file)?;
+    let is_own = |suffix: &str| own.name.strip_prefix(&kernel) == Some(suffix);
+    let variant = variants(&kernel).iter().find(|variant| is_own(variant.suffix));
+    let variant = *variant.ok_or_else(|| format!("{kernel} has no variant {}", own.name))?;
+    let artifact = compile(sources, &file, variant, cfg!(debug_assertions))?;
     Ok(own.rebuilt(artifact.as_binary_u8().to_vec())?)
 }
 
@@ -126,27 +134,24 @@ mod tests {
         let watch = ShaderWatch::start(folder.path().to_owned(), move || sender.send(()).unwrap());
         // A watch that has not looked yet would take the change for the beginning.
         std::thread::sleep(PERIOD * 3);
-        let course = &["course"][..];
-        let whitted = &[
-            "whitted_f32",
-            "whitted_f64",
-            "whitted_plain",
-            "whitted_f32_packets",
-            "whitted_f64_packets",
-            "whitted_plain_packets",
-        ][..];
-        for (file, others) in [("course/phong.glsl", whitted), ("transport/shade.glsl", course)] {
+        let all: Vec<&str> = DRAWING.iter().flat_map(|(_, own)| *own).map(|own| own.name).collect();
+        let of = |is_wanted: fn(&str) -> bool| all.iter().copied().filter(|name| is_wanted(name)).collect::<Vec<_>>();
+        for (file, others) in [
+            ("course/phong.glsl", of(|name| name != "course")),
+            ("path/successors.glsl", of(|name| !name.starts_with("path"))),
+            ("ssr/march.glsl", of(|name| name != "ssr_reflect")),
+        ] {
             let path = folder.path().join(file);
             let whole = fs::read_to_string(&path).unwrap();
             fs::write(&path, format!("broken\n{whole}")).unwrap();
             woken.recv_timeout(Duration::from_secs(60)).unwrap();
             let (complaint, good) = sorted(watch.take().unwrap());
             assert!(complaint.is_some_and(|complaint| complaint.contains(&format!("{file}:"))), "{file}");
-            assert_eq!(good, others, "{file}: the other kernel is as good as it was");
+            assert_eq!(good, others, "{file}: the other kernels are as good as they were");
 
             fs::write(&path, whole).unwrap();
             woken.recv_timeout(Duration::from_secs(60)).unwrap();
-            assert_eq!(sorted(watch.take().unwrap()), (None, [course, whitted].concat()));
+            assert_eq!(sorted(watch.take().unwrap()), (None, all.clone()));
             assert!(watch.take().is_none(), "each change once");
         }
     }
