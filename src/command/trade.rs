@@ -44,7 +44,7 @@ pub struct TradeArgs {
     /// Scene files or names of `zerkalo gallery`
     #[arg(required = true, value_name = "SCENE")]
     pub scenes: Vec<String>,
-    /// Which is the fastest setting whose error is at most E, such as 0.002 or 1/510?
+    /// Which is the fastest setting whose error is at most E, such as 0.002 or 1/510? By --target radiance, the RMSE
     #[arg(long, value_name = "E", value_parser = parse_error)]
     pub error: Option<f64>,
     /// Which is the most accurate setting that draws N frames a second?
@@ -275,6 +275,11 @@ fn save_answer(trade: &Trade, path: &std::path::Path) -> Result<(), SettingsErro
     let (Some(scene), Some(&question)) = (scenes.first(), conditions.questions.first()) else { return Ok(()) };
     let Some(place) = scene.answer(question, conditions.counted) else { return Ok(()) };
     let asked = match question {
+        Question::Error(error) if conditions.counted == Counted::RootMeanSquare => {
+            format!(
+                "The fastest setting within an RMSE of {error} to all light (of path tracing with a confidence of 95 %)"
+            )
+        }
         Question::Error(error) => format!("The fastest setting within an error of {error}"),
         Question::Fps(fps) => format!("The most accurate setting at {fps} frames a second"),
     };

@@ -19,12 +19,12 @@ pub fn body(comparison: &Comparison) -> Result<Markup, ReportError> {
         p {
             (both(
                 format!(
-                    "Every algorithm draws the same light ({width}x{height} pixels, {seeds} pictures of each, in turns). \
+                    "Every algorithm draws the same light ({width}x{height} pixels, pictures of each: {seeds}, in turns). \
                      The truth is path tracing by all seeds together; each seed is judged by the others. Noise is the \
                      standard deviation between the pictures."
                 ),
                 format!(
-                    "Все алгоритмы рисуют один и тот же свет ({width}x{height} пикселей, по {seeds} изображений, по \
+                    "Все алгоритмы рисуют один и тот же свет ({width}x{height} пикселей, изображений каждого: {seeds}, по \
                      очереди). Истина — трассировка путей по всем зёрнам вместе; о каждом зерне судят по остальным. Шум — \
                      стандартное отклонение между изображениями."
                 ),
@@ -41,15 +41,15 @@ fn of_scene(comparison: &Comparison, scene: &SceneComparison) -> Markup {
     html! {
         h3 { code { (scene.scene) } }
         p { (both(
-            format!("The truth: {samples} samples a pixel, standard error {error}."),
-            format!("Истина: {samples} выборок на пиксель, стандартная ошибка {error}."),
+            format!("The truth: samples a pixel: {samples}, standard error {error}."),
+            format!("Истина: выборок на пиксель — {samples}, стандартная ошибка {error}."),
         )) }
         (table_of(&figures(scene)))
         @for &samples in &comparison.conditions.samples {
             details {
                 summary { (both(
-                    format!("the note's ranks, path tracing by {samples} samples"),
-                    format!("места по записке, трассировка путей: {samples} выборок на пиксель"),
+                    format!("the note's ranks, path tracing, samples a pixel: {samples}"),
+                    format!("места по записке, трассировка путей, выборок на пиксель: {samples}"),
                 )) }
                 (table_of(&verdicts(&ranks(scene, samples))))
             }

@@ -127,7 +127,9 @@ fn panel(scene: &SceneTrade, Trade { conditions, .. }: &Trade) -> Panel {
     lines.push(Line { stroke: FRONT, path: steps });
 
     let x_label = match (conditions.target, conditions.counted) {
-        (_, Counted::RootMeanSquare) => "RMSE to all light, of path tracing for 95 % · СКО от полного света",
+        (_, Counted::RootMeanSquare) => {
+            "RMSE to all light (path: 95 % limit) · СКО от полного света (path: граница 95 %)"
+        }
         (Target::Point | Target::Radiance { .. }, Counted::AllPixels) => {
             "largest error of a channel · наибольшая ошибка"
         }

@@ -64,13 +64,13 @@ pub fn measure(
             Outcome::LeftOut(left_out) => trade.left_out.push(left_out),
         }
     }
-    for &question in &conditions.questions {
+    for (round, &question) in (1..).zip(&conditions.questions) {
         let places = contenders(question, &trade.candidates(conditions.counted));
         if places.len() > 1 {
             let done = sweep.planned().count();
             let _ = watch(Step::Setting { done, name: "the contenders once more" });
             let rivals: Vec<(usize, &Planned)> = places.into_iter().map(|place| (place, measured[place])).collect();
-            bench.measure_again(&mut trade.points, &rivals, &mut || watch(Step::Tile))?;
+            bench.measure_again(&mut trade.points, &rivals, round * SEEDS_AT_ONCE, &mut || watch(Step::Tile))?;
         }
     }
     trade.complete = true;
@@ -99,8 +99,8 @@ enum Outcome {
 const PATIENCE: Duration = Duration::from_secs(20);
 const PATIENCE_OF_BUDGET: u32 = 20;
 
-/// Seeds that a setting's pictures have while it is measured for the first time: those of the second time are others.
-const SEEDS_AT_FIRST: u32 = 1 << 16;
+/// Seeds for a setting's pictures whenever it is measured: each time it has others.
+const SEEDS_AT_ONCE: u32 = 1 << 16;
 
 /// Times of one tracer with the baseline.
 #[derive(Default, Clone)]
@@ -164,7 +164,11 @@ impl<'a> Bench<'a> {
         // One tracer, one list of pairs.
         let first_rmse = self.rmse_of(&tracer, planned);
         let mut tracers = [(tracer, planned)];
-        let pairs = self.pairs_of(&mut tracers, budget, keep_going)?.pop().unwrap_or_default();
+        let pairs = match self.pairs_of(&mut tracers, budget, keep_going) {
+            // Paths of one seed may be longer than those of another.
+            Err(error @ TracerError::LoopLimitReached { .. }) => return left_out(error.to_string()),
+            pairs => pairs?.pop().unwrap_or_default(),
+        };
         let Pairs { baseline_samples_ns, samples_ns, rmse, .. } = pairs;
         let rmse_of_pictures = first_rmse.into_iter().chain(rmse).collect();
         Ok(Outcome::Measured(Point { setting, bound, error, rmse_of_pictures, baseline_samples_ns, samples_ns }))
@@ -182,7 +186,8 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// Adds to points the times of pairs in which they take turns, twice as many as each had at first.
+    /// Adds to points the times of pairs in which they take turns, twice as many as each had at first. Pictures of chance
+    /// have seeds from `first_seed` on.
     ///
     /// # Errors
     /// The device fails, or `keep_going` breaks; then the points stay as they were.
@@ -190,17 +195,22 @@ impl<'a> Bench<'a> {
         &mut self,
         points: &mut [Point],
         contenders: &[(usize, &Planned)],
+        first_seed: u32,
         keep_going: KeepGoing<'_>,
     ) -> Result<(), TracerError> {
         let Budget { time_ms, frames, least_ms } = self.conditions.budget;
         let budget = Budget { time_ms: 2 * time_ms, frames: 2 * frames, least_ms: 2 * least_ms };
         let mut tracers = Vec::new();
         for &(_, planned) in contenders {
-            let mut tracer = self.tracer(planned, SEEDS_AT_FIRST)?;
+            let mut tracer = self.tracer(planned, first_seed)?;
             tracer.draw(keep_going)?;
             tracers.push((tracer, planned));
         }
-        let pairs = self.pairs_of(&mut tracers, budget, keep_going)?;
+        let pairs = match self.pairs_of(&mut tracers, budget, keep_going) {
+            // What was measured at first stands.
+            Err(TracerError::LoopLimitReached { .. }) => return Ok(()),
+            pairs => pairs?,
+        };
         for (&(place, _), pairs) in contenders.iter().zip(pairs) {
             points[place].baseline_samples_ns.extend(pairs.baseline_samples_ns);
             points[place].samples_ns.extend(pairs.samples_ns);

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use crate::algorithm::{Algorithm, Precision};
+use crate::algorithm::Algorithm;
 use crate::frame::Frame;
 use crate::gpu::Device;
 use crate::plan::Plan;
@@ -23,7 +23,7 @@ pub struct Radiance {
     pub standard_error: f64,
 }
 
-/// Path-traces a scene on a device by so many samples a pixel. `progress` hears of how many there are.
+/// Path-traces a scene on a device by so many samples a pixel, in the precision that the plan chooses for it. `progress` hears of how many there are.
 ///
 /// # Errors
 /// The device cannot draw the scene, fails, `progress` stopped it, or the samples are too few to tell their own error:
@@ -36,13 +36,7 @@ pub fn radiance(
     samples: u32,
     progress: &mut dyn FnMut(u32) -> ControlFlow<()>,
 ) -> Result<Radiance, TracerError> {
-    let settings = RenderSettings {
-        algorithm: Algorithm::Path,
-        precision: Some(Precision::F32),
-        seed: SEED,
-        shading,
-        ..RenderSettings::DEFAULT
-    };
+    let settings = RenderSettings { algorithm: Algorithm::Path, seed: SEED, shading, ..RenderSettings::DEFAULT };
     let plan = Plan::for_scene(scene, &settings, size, &limits_of(device.description()));
     let plan = plan.map_err(|error| TracerError::Refused(error.to_string()))?;
     let mut picture = Progressive::new(device, scene, &Settings::planned(&plan))?;

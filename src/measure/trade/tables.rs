@@ -72,7 +72,7 @@ pub fn truth_told(scene: &SceneTrade, conditions: &Conditions) -> Option<Words> 
     let error = three_digits(scene.truth_standard_error?);
     Some(Words::both(
         format!("The truth: path tracing by {truth_samples} samples a pixel, standard error {error}."),
-        format!("Истина: трассировка путей, {truth_samples} выборок на пиксель, стандартная ошибка {error}."),
+        format!("Истина: трассировка путей, выборок на пиксель: {truth_samples}, стандартная ошибка {error}."),
     ))
 }
 
@@ -202,7 +202,7 @@ fn told(point: &Point, figures: &Figures) -> String {
         format!("; {} of the edge pixels are more than 1/510 off", percent(edges.differing_share()))
     });
     let proof = match point.bound {
-        None if !point.rmse_of_pictures.is_empty() => format!(
+        None if !point.rmse_of_pictures.is_empty() && figures.counted_error.is_some() => format!(
             ", which a picture by one more seed does not exceed with a confidence of 95 %, by the {} measured",
             point.rmse_of_pictures.len()
         ),
