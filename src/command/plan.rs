@@ -7,10 +7,11 @@ use serde::Serialize;
 use super::options::{parse_algorithm, parse_depth, parse_error, parse_size};
 use super::{DeviceArgs, print_json, print_line, scene_named};
 use crate::algorithm::{Algorithm, Description, Precision};
-use crate::gpu::{self, DeviceDescription, GpuError};
+use crate::gpu::{self, CompiledKernel, Device, DeviceDescription, GpuError, Statistic};
 use crate::plan::{Approximations, Bounds, Limits, Line, Plan};
+use crate::scene::Scene;
 use crate::settings::{RenderSettings, Shading};
-use crate::tracer::limits_of;
+use crate::tracer::{Settings, compile, limits_of};
 
 /// Tell what will run for a scene, what is left out and why, and what that saves
 #[derive(Debug, Clone, Args)]
@@ -40,6 +41,10 @@ pub struct PlanArgs {
     /// Plan for what every Vulkan 1.2 device has, whatever there is here
     #[arg(long, conflicts_with = "device")]
     pub no_device: bool,
+    /// Compile what draws the scene, and tell what the device's compiler made of it, such as registers and spills.
+    /// Nothing is run, so that the device need not have hardware
+    #[arg(long, conflicts_with = "no_device")]
+    pub compile: bool,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -62,6 +67,8 @@ struct Report<'a> {
     decisions: Vec<Line>,
     /// Why the picture will not be right; null where it will.
     warning: Option<String>,
+    /// What the device's compiler made of what draws; null where that is not asked for.
+    compiled: Option<Vec<CompiledKernel>>,
 }
 
 pub fn run(args: &PlanArgs) -> Result<()> {
@@ -79,6 +86,11 @@ pub fn run(args: &PlanArgs) -> Result<()> {
     };
     let scene = args.shading.applied(&scene);
     let plan = Plan::for_scene(&scene, &settings, [width, height], &limits)?.with_f32_tried(&scene);
+    let compiled = match &device {
+        Some(device) if args.compile => Some(compiled(device.index, &scene, &plan)?),
+        None if args.compile => return Err(GpuError::NoDriver.into()),
+        _ => None,
+    };
     let device = device.as_ref().map(|device| device.name.as_str());
     if args.json {
         return print_json(&Report {
@@ -92,6 +104,7 @@ pub fn run(args: &PlanArgs) -> Result<()> {
             approximations: plan.approximations,
             decisions: plan.lines(),
             warning: plan.warning(),
+            compiled,
         });
     }
     let device = device.unwrap_or("any Vulkan 1.2 device (none is at hand)");
@@ -100,7 +113,27 @@ pub fn run(args: &PlanArgs) -> Result<()> {
         let saves = saves.as_ref().map(|saves| format!("; saves {saves}")).unwrap_or_default();
         print_line(&format!("  {what:<14} {choice:<11} {why}{saves}"))
     })?;
-    plan.warning().iter().try_for_each(|warning| print_line(&format!("warning: {warning}")))
+    plan.warning().iter().try_for_each(|warning| print_line(&format!("warning: {warning}")))?;
+    compiled.iter().flatten().try_for_each(print_compiled)
+}
+
+fn compiled(device_index: usize, scene: &Scene, plan: &Plan) -> Result<Vec<CompiledKernel>> {
+    let device = Device::open_to_compile(Some(&device_index.to_string()))?;
+    Ok(compile(&device, scene, &Settings::planned(plan))?)
+}
+
+fn print_compiled(CompiledKernel { kernel, executables }: &CompiledKernel) -> Result<()> {
+    if executables.is_empty() {
+        return print_line(&format!(
+            "compiled {kernel}: this driver tells nothing of it (no VK_KHR_pipeline_executable_properties)"
+        ));
+    }
+    for executable in executables {
+        let gpu::Executable { name, subgroup_size, statistics } = executable;
+        print_line(&format!("compiled {kernel}: {name}, {subgroup_size} invocations together"))?;
+        statistics.iter().try_for_each(|Statistic { name, value, .. }| print_line(&format!("  {name:<30} {value}")))?;
+    }
+    Ok(())
 }
 
 /// The device that `render` would take; none where there is no Vulkan, for a plan needs only its limits.

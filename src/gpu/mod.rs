@@ -5,6 +5,7 @@
 mod arithmetic;
 mod checks;
 mod commands;
+mod compiled;
 mod device;
 mod error;
 mod float_controls;
@@ -35,7 +36,9 @@ pub use arithmetic::{Arithmetic, FloatWidth, arithmetic};
 pub use checks::{Check, try_checks};
 pub(crate) use commands::Semaphores;
 pub use commands::{Commands, Idle};
+pub use compiled::{CompiledKernel, Executable, Statistic, StatisticValue};
 pub use device::Device;
+use device::Purpose;
 pub use error::GpuError;
 pub use hazards::Use;
 pub use in_flight::InFlight;
@@ -49,7 +52,7 @@ pub use pipeline::{BindingKind, BindingSet, ComputePipeline, PipelineDescription
 pub(crate) use recorder::Dispatch;
 pub use recorder::Recorder;
 #[cfg(any(debug_assertions, test))]
-pub(crate) use shader_compiler::{compile, variants};
+pub(crate) use shader_compiler::{compile, kernel_name, variants};
 pub use shaders::{Builds, Shader};
 pub use surface::{Surface, SurfaceTarget};
 pub(crate) use swapchain::Swapchain;
@@ -70,27 +73,34 @@ impl Device {
     /// # Errors
     /// No loader, driver, layer or suitable device; see [`choose`].
     pub fn open(wanted: Option<&str>, validation: Validation) -> Result<Arc<Self>, GpuError> {
-        Self::open_on(&Instance::new(validation)?, wanted, None)
+        Self::open_on(&Instance::new(validation)?, wanted, Purpose::Draw)
     }
 
     /// As [`Device::open`], a device that can show pictures on the surface.
     pub fn open_for(surface: &Surface, wanted: Option<&str>) -> Result<Arc<Self>, GpuError> {
-        Self::open_on(surface.instance(), wanted, Some(surface))
+        Self::open_on(surface.instance(), wanted, Purpose::Show(surface))
     }
 
-    fn open_on(
-        instance: &Arc<Instance>,
-        wanted: Option<&str>,
-        surface: Option<&Surface>,
-    ) -> Result<Arc<Self>, GpuError> {
-        let mut candidates = physical::list(instance, surface)?;
+    /// As [`Device::open`], but to compile kernels only and be told of them, see [`Device::compiled`]: nothing may be
+    /// submitted, for there may be no hardware. How kernels calculate is then taken for granted, not tried.
+    pub fn open_to_compile(wanted: Option<&str>) -> Result<Arc<Self>, GpuError> {
+        Self::open_on(&Instance::new(Validation::Off)?, wanted, Purpose::Compile)
+    }
+
+    fn open_on(instance: &Arc<Instance>, wanted: Option<&str>, purpose: Purpose<'_>) -> Result<Arc<Self>, GpuError> {
+        let mut candidates = physical::list(instance, purpose.surface())?;
         let descriptions: Vec<_> = candidates.iter().map(|candidate| candidate.description.clone()).collect();
         let index = choose(&descriptions, wanted)?;
-        Device::new(instance.clone(), candidates.swap_remove(index), surface.is_some())
+        Device::new(instance.clone(), candidates.swap_remove(index), purpose)
     }
 
     pub(crate) fn instance(&self) -> &Arc<Instance> {
         &self.instance
+    }
+
+    /// Every kernel compiled since the last call, of a device [opened for that](Device::open_to_compile); none of others.
+    pub fn compiled(&self) -> Vec<CompiledKernel> {
+        self.capture.as_ref().map_or_else(Vec::new, compiled::Capture::take)
     }
 
     /// As the device was listed before it was opened.

@@ -185,7 +185,7 @@ fn inspect(instance: &Instance, surface: Option<&Surface>, index: usize, raw: vk
         lacks.push("a queue that can compute".to_owned());
     }
     if let Some(surface) = surface {
-        if !offers_swapchain(instance, raw) {
+        if !offers(instance, raw, khr::swapchain::NAME) {
             lacks.push("VK_KHR_swapchain".to_owned());
         }
         // The widgets are drawn by the graphics pipeline, in the queue that traces: one for all needs no hand-over.
@@ -234,10 +234,22 @@ fn subgroups_are_packets(subgroups: &vk::PhysicalDeviceSubgroupProperties) -> bo
         && subgroups.supported_operations.contains(vk::SubgroupFeatureFlags::SHUFFLE)
 }
 
-fn offers_swapchain(instance: &Instance, raw: vk::PhysicalDevice) -> bool {
+fn offers(instance: &Instance, raw: vk::PhysicalDevice, name: &CStr) -> bool {
     // SAFETY: `raw` comes from this instance.
     let extensions = unsafe { instance.raw.enumerate_device_extension_properties(raw) }.unwrap_or_default();
-    extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(khr::swapchain::NAME))
+    extensions.iter().any(|extension| extension.extension_name_as_c_str() == Ok(name))
+}
+
+/// Whether a device of this instance tells what it compiles kernels to.
+pub(super) fn tells_of_kernels(instance: &Instance, raw: vk::PhysicalDevice) -> bool {
+    if !offers(instance, raw, khr::pipeline_executable_properties::NAME) {
+        return false;
+    }
+    let mut of_kernels = vk::PhysicalDevicePipelineExecutablePropertiesFeaturesKHR::default();
+    let mut offered = vk::PhysicalDeviceFeatures2::default().push_next(&mut of_kernels);
+    // SAFETY: `raw` comes from this instance; the structures live through the call.
+    unsafe { instance.raw.get_physical_device_features2(raw, &mut offered) };
+    of_kernels.pipeline_executable_info == vk::TRUE
 }
 
 fn text<E>(name: Result<&CStr, E>) -> String {

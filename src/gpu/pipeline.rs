@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
+use super::compiled::Capture;
 use super::device::Device;
 use super::error::GpuError;
 use super::float_controls;
@@ -94,8 +95,14 @@ impl ComputePipeline {
         let raw = compile(&device, description, layout.raw)?;
         let pipeline = Self { raw, layout, name, device };
         let device = &pipeline.device;
+        if let Some(capture) = &device.capture {
+            // SAFETY: it was just compiled on this device, to be told of.
+            unsafe { capture.add(name, raw) }.map_err(GpuError::call(|| format!("ask about kernel '{name}'")))?;
+        }
         device.set_name(pipeline.raw, name);
-        device.cache.save(&device.raw);
+        if device.capture.is_none() {
+            device.cache.save(&device.raw);
+        }
         Ok(Arc::new(pipeline))
     }
 }
@@ -171,6 +178,8 @@ impl Drop for Layout {
     }
 }
 
+const NO_FLAGS: vk::PipelineCreateFlags = vk::PipelineCreateFlags::empty();
+
 fn compile(
     device: &Device,
     description: &PipelineDescription,
@@ -200,12 +209,14 @@ fn compile(
         .specialization_info(&specialization);
     let info = vk::ComputePipelineCreateInfo::default()
         // For `Recorder::dispatch_parts`.
-        .flags(vk::PipelineCreateFlags::DISPATCH_BASE)
+        .flags(vk::PipelineCreateFlags::DISPATCH_BASE | device.capture.as_ref().map_or(NO_FLAGS, Capture::flags))
         .stage(stage)
         .layout(layout);
+    // What comes from a cache may have been compiled without being told of.
+    let cache = if device.capture.is_some() { vk::PipelineCache::null() } else { device.cache.raw };
     // SAFETY: module and layout are alive; the module may go once the pipeline stands.
     let made = unsafe {
-        let made = device.raw.create_compute_pipelines(device.cache.raw, &[info], None);
+        let made = device.raw.create_compute_pipelines(cache, &[info], None);
         device.raw.destroy_shader_module(module, None);
         made
     };

@@ -2,6 +2,7 @@
 
 mod canvas;
 mod chunks;
+mod compile;
 pub mod course;
 mod parts;
 mod pixels;
@@ -21,6 +22,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 pub use canvas::Canvas;
+pub use compile::compile;
 pub use progressive::{ErrorEstimate, Progressive};
 pub use settings::Settings;
 

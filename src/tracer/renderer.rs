@@ -36,6 +36,8 @@ pub(super) trait Algorithm {
     /// The algorithm cannot draw the scene so on this device.
     fn prepare(&self, scene: &Scene, settings: &Settings) -> Result<Self::State, TracerError>;
 
+    /// Compiles what draws a state, and keeps nothing of it.
+    fn compile(&self, state: &Self::State) -> Result<(), GpuError>;
     /// Brings a state to the device; what is there of the last one and still fits is kept.
     fn take_up(&mut self, recorder: &mut Recorder, state: &Self::State) -> Result<TakenUp, GpuError>;
 
@@ -155,6 +157,8 @@ pub(super) trait Renderer {
     /// # Errors
     /// As of [`Algorithm::prepare`]; what was prepared stays.
     fn prepare(&mut self, scene: &Scene, settings: &Settings, again: bool) -> Result<(), TracerError>;
+    /// See [`Algorithm::compile`], of the scene prepared; nothing without one.
+    fn compile_next(&self) -> Result<(), GpuError>;
     /// Whether a scene is prepared and not yet taken up.
     fn has_next(&self) -> bool;
     /// Takes up the scene prepared, if there is one.
@@ -223,6 +227,10 @@ impl<A: Algorithm> Renderer for Staged<A> {
             self.next = Some(wanted);
         }
         Ok(())
+    }
+
+    fn compile_next(&self) -> Result<(), GpuError> {
+        self.next.as_ref().map_or(Ok(()), |next| self.algorithm.compile(next))
     }
 
     fn has_next(&self) -> bool {

@@ -10,6 +10,7 @@ mod place;
 mod random;
 
 mod command_line;
+mod compile;
 mod fps;
 mod paths;
 mod report;

@@ -112,6 +112,14 @@ struct OnDevice {
 }
 
 impl CourseRenderer {
+    /// Generations that the kernel is compiled for.
+    fn max_depth(&self, state: &CourseScene) -> u32 {
+        match self.made_for {
+            MadeFor::Headless => state.frame.depth as u32,
+            MadeFor::Live => DEPTH_LIMIT,
+        }
+    }
+
     pub fn new(device: &Arc<Device>, builds: &Builds, made_for: MadeFor) -> Self {
         Self { device: device.clone(), builds: builds.clone(), made_for, on_device: None }
     }
@@ -144,12 +152,13 @@ impl Algorithm for CourseRenderer {
         CourseScene::new(scene, settings)
     }
 
+    fn compile(&self, state: &CourseScene) -> Result<(), GpuError> {
+        made(&self.device, &self.builds, self.max_depth(state), state.workgroup).map(drop)
+    }
+
     fn take_up(&mut self, recorder: &mut Recorder, state: &CourseScene) -> Result<TakenUp, GpuError> {
-        let &CourseScene { ref frame, ref primitives, workgroup } = state;
-        let max_depth = match self.made_for {
-            MadeFor::Headless => frame.depth as u32,
-            MadeFor::Live => DEPTH_LIMIT,
-        };
+        let &CourseScene { ref primitives, workgroup, .. } = state;
+        let max_depth = self.max_depth(state);
         let Some(on_device) = &mut self.on_device else {
             let pipeline = made(&self.device, &self.builds, max_depth, workgroup)?;
             let (arrays, primitives) = (upload(&self.device, primitives)?, primitives.clone());

@@ -129,6 +129,12 @@ impl Algorithm for SsrRenderer {
         })
     }
 
+    fn compile(&self, state: &SsrState) -> Result<(), GpuError> {
+        self.light.compile(&state.light)?;
+        DepthPyramid::new(&self.device, &self.builds)?;
+        Reflections::new(&self.device, &self.builds, state.variant()).map(drop)
+    }
+
     fn take_up(&mut self, recorder: &mut Recorder, state: &SsrState) -> Result<TakenUp, GpuError> {
         let mut taken_up = self.light.take_up(recorder, &state.light)?;
         let pyramid = match &self.pyramid {

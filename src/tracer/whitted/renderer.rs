@@ -202,6 +202,10 @@ impl Algorithm for WhittedRenderer {
         Ok(WhittedState { scene: WhittedScene::new(&self.device, scene, records, settings, pixels)?, primitives })
     }
 
+    fn compile(&self, state: &WhittedState) -> Result<(), GpuError> {
+        WhittedPipeline::new(&self.device, &self.builds, &state.scene).map(drop)
+    }
+
     /// Where the arrays keep their lengths, by what differs in them.
     fn take_up(&mut self, recorder: &mut Recorder, state: &WhittedState) -> Result<TakenUp, GpuError> {
         let WhittedState { scene, primitives } = state;
