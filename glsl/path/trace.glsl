@@ -61,14 +61,14 @@ void trace_samples(View view) {
             bool is_under_way = path.purpose != ENDED || begun < samples;
             uint there_is = bits_of_packet((candidate.is_there || is_unshaded ? WORK : 0u) | (is_under_way ? RAY : 0u));
             // Rays that go each for itself take one iteration of all, as in `trace`.
-            if (!IN_PACKETS || there_is != RAY || iterations >= MAX_ITERATIONS) break;
+            if (!IN_PACKETS || there_is != RAY || has_run_out()) break;
         }
 
         bool is_done = solve(candidate, is_unshaded, view, path);
         bool is_lit = casts_shadow_ray(is_done, path);
         if (is_done && !is_lit) end_generation(path);
         bool is_under_way = path.purpose != ENDED || begun < samples;
-        if (!any_of_packet(is_under_way) || iterations >= MAX_ITERATIONS) break;
+        if (!any_of_packet(is_under_way) || has_run_out()) break;
     }
     // The last sample is unfinished if iterations ran out.
     uint ended = path.purpose == ENDED ? begun : begun - 1u;

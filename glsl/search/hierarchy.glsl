@@ -175,7 +175,7 @@ void OF_KIND(search)(TraversalRay traversal, vec3 heading, bool is_searching, in
             }
 
             OF_KIND(try_groups)(8u * path, leaves, are_leaves_backwards, entries, entries, traversal, found);
-            bool ends = (left.x | left.y) == 0u || iterations >= MAX_ITERATIONS;
+            bool ends = (left.x | left.y) == 0u || has_run_out();
             if (ends || !any_of_packet(found.limit > HIDDEN)) break;
         }
     }

@@ -98,10 +98,10 @@ Real3 with_reflections(uvec2 own_pixel, View view, out uint reason) {
             for (;;) {
                 iterations++;
                 if (march.ending == UNDER_WAY) step_on(march);
-                if (march.candidate != NOTHING || march.ending != UNDER_WAY || iterations >= MAX_ITERATIONS) break;
+                if (march.candidate != NOTHING || march.ending != UNDER_WAY || has_run_out()) break;
             }
             solve(ray, origin_surface, march, found);
-            if (march.ending != UNDER_WAY || iterations >= MAX_ITERATIONS) break;
+            if (march.ending != UNDER_WAY || has_run_out()) break;
         }
 
         uvec2 pixel;
@@ -121,7 +121,7 @@ Real3 with_reflections(uvec2 own_pixel, View view, out uint reason) {
             reason = outcome;
         }
         goes_on = is_lit && weight > 0.0 && generation < frame.depth;
-        if (!goes_on || iterations >= MAX_ITERATIONS) break;
+        if (!goes_on || has_run_out()) break;
     }
     return color;
 }
@@ -133,6 +133,6 @@ void main() {
     Real3 color = seen.rgb;
     uint reason = NO_MIRROR;
     if (HAS_REFLECTIONS) color = with_reflections(pixel, view(), reason);
-    bool is_ended = seen.a != UNFINISHED && iterations < MAX_ITERATIONS;
+    bool is_ended = seen.a != UNFINISHED && !has_run_out();
     picture[place_of(pixel)] = vec4(SHOWS_REASONS ? COLORS[reason] : color, is_ended ? 1.0 : 0.0);
 }

@@ -150,9 +150,8 @@ const Real LEAST_CHOSEN = 1e-30;
 // change alone cures that; what it came from is not known.
 //
 // Of many lights, one is chosen in proportion to the brightest channel of what it adds to the pixel where nothing hides
-// it, in a
-// single pass: each in turn takes the place of the one before with its share of the sum so far, and the number that
-// decided is spread over 0 to 1 again. Its light then stands for all.
+// it, in a single pass: each in turn takes the place of the one before with its share of the sum so far, and the number
+// that decided is spread over 0 to 1 again. Its light then stands for all.
 bool casts_shadow_ray(bool is_done, inout Path path) {
     Real choice = 0.0, sum = 0.0;
     bool is_lit = false;

@@ -106,18 +106,18 @@ void trace(View view) {
             bool goes_on = there_is == RAY || (is_packet_at_rest && begun < PIXELS);
             // Rays that go each for itself take one iteration of all: left by one after another, this loop is what Mesa
             // 22.3 draws scenes with several lights wrong from.
-            if (!IN_PACKETS || !goes_on || iterations >= MAX_ITERATIONS) break;
+            if (!IN_PACKETS || !goes_on || has_run_out()) break;
         }
 
         bool is_done = solve(candidate, is_unshaded, view, path);
         bool is_lit = casts_shadow_ray(is_done, path);
         if (is_done && !is_lit) end_generation(path);
         is_packet_at_rest = !any_of_packet(path.purpose != ENDED);
-        if ((is_packet_at_rest && begun == PIXELS) || iterations >= MAX_ITERATIONS) break;
+        if ((is_packet_at_rest && begun == PIXELS) || has_run_out()) break;
     }
     // The last pixel, unfinished if iterations ran out; then those never begun: black.
     for (;;) {
-        put(begun - 1u, path, iterations < MAX_ITERATIONS);
+        put(begun - 1u, path, !has_run_out());
         if (begun == PIXELS) break;
         begun++;
         path.color = Real3(0.0);

@@ -1,18 +1,28 @@
 //! `zerkalo plan --compile`: what compilers make of kernels. Mesa's RADV compiles for GPUs that are not there.
 
 use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
 use crate::place::{Place, Run};
 
-/// Of two generations, both known to Mesa since 22.
-const FAMILIES: [&str; 2] = ["navi21", "vega10"];
+/// A GPU that Mesa knows since 22.
+const FAMILY: &str = "navi21";
 
-/// What RADV makes of a scene's kernels for a GPU of this family.
-fn compiled(place: &Place, family: &str, arguments: &[&str]) -> Run {
+/// What RADV makes of a scene's kernels for [`FAMILY`].
+fn compiled(place: &Place, arguments: &[&str]) -> Run {
     let all = [&["plan"], arguments, &["--compile", "--json", "--device", "RADV"][..]].concat();
-    Run::of(place.command(&all).env("RADV_FORCE_FAMILY", family).output().unwrap())
+    let mut program = place.command(&all).env("RADV_FORCE_FAMILY", FAMILY).spawn().unwrap();
+    // A compiler may not come to an end: what was wrong with RADV of Mesa 25 and a scene without solids.
+    let start = Instant::now();
+    while program.try_wait().unwrap().is_none() {
+        if start.elapsed() > Duration::from_secs(120) {
+            program.kill().unwrap();
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    Run::of(program.wait_with_output().unwrap())
 }
 
 /// Each executable's kernel and figures, by their names.
@@ -30,44 +40,38 @@ fn executables(run: &Run) -> Vec<(String, BTreeMap<String, u64>)> {
     kernels.iter().flat_map(of_kernel).collect()
 }
 
+/// Every kernel, and scenes in which the accurate one is as small or as large as it comes. RADV takes seconds for each.
+const KERNELS: [(&str, &str, &[&str]); 8] = [
+    ("start", "whitted_f32", &["--algorithm", "whitted", "--precision", "f32"]),
+    ("squares-100", "whitted_f32", &["--algorithm", "whitted", "--precision", "f32"]),
+    ("glass", "whitted_f32", &["--algorithm", "whitted", "--precision", "f32"]),
+    ("four", "course", &["--algorithm", "course"]),
+    ("four", "whitted_f32", &["--algorithm", "whitted", "--precision", "f32"]),
+    ("four", "whitted_f64", &["--algorithm", "whitted", "--precision", "f64"]),
+    ("four", "ssr", &["--algorithm", "ssr"]),
+    ("four", "path_f32", &["--algorithm", "path", "--precision", "f32"]),
+];
+
 /// Of kernels in f32, none keeps registers in memory, and only the rays that wait in a scene of glass are there. How
 /// much of it is f64's is told in docs/performance.md.
 #[test]
 fn every_kernel_is_compiled_for_gpus_and_none_in_f32_spills() {
     let place = Place::new();
-    let in_f32: [(&str, &[&str]); 5] = [
-        ("course", &["--algorithm", "course"]),
-        ("whitted_plain", &["--algorithm", "plain"]),
-        ("whitted_f32", &["--algorithm", "whitted", "--precision", "f32"]),
-        ("ssr", &["--algorithm", "ssr"]),
-        ("path_f32", &["--algorithm", "path", "--precision", "f32"]),
-    ];
-    let in_f64: [(&str, &[&str]); 2] = [
-        ("whitted_f64", &["--algorithm", "whitted", "--precision", "f64"]),
-        ("path_f64", &["--algorithm", "path", "--precision", "f64"]),
-    ];
-    for family in FAMILIES {
-        if compiled(&place, family, &["squares-1"]).code != Some(0) {
-            eprintln!("skipped: there is no RADV here that compiles for {family}");
-            continue;
-        }
-        for scene in ["four", "squares-100", "glass"] {
-            for (kernel, arguments) in in_f32.into_iter().chain(in_f64) {
-                if (kernel, scene) == ("course", "glass") {
-                    continue;
-                }
-                let run = compiled(&place, family, &[&[scene], arguments].concat());
-                assert_eq!(run.code, Some(0), "{family} {scene} {kernel}: {}", run.stderr);
-                let executables = executables(&run);
-                assert!(!executables.is_empty() && executables.iter().all(|(name, _)| name.starts_with(kernel)));
-                for (name, figures) in executables {
-                    assert!(figures["VGPRs"] > 0 && figures["Instructions"] > 0, "{name}: {figures:?}");
-                    if !kernel.ends_with("f64") {
-                        assert_eq!(figures["Spilled VGPRs"], 0, "{family} {scene} {name}");
-                        let waits = scene == "glass" && name.starts_with("whitted");
-                        assert!(waits || figures["Scratch size"] == 0, "{family} {scene} {name}: {figures:?}");
-                    }
-                }
+    if compiled(&place, &["squares-1", "--algorithm", "course"]).code != Some(0) {
+        eprintln!("skipped: there is no RADV here that compiles for {FAMILY}");
+        return;
+    }
+    for (scene, kernel, arguments) in KERNELS {
+        let run = compiled(&place, &[&[scene], arguments].concat());
+        assert_eq!(run.code, Some(0), "{scene} {kernel}: {}", run.stderr);
+        let executables = executables(&run);
+        assert!(!executables.is_empty() && executables.iter().all(|(name, _)| name.starts_with(kernel)));
+        for (name, figures) in executables {
+            assert!(figures["VGPRs"] > 0 && figures["Instructions"] > 0, "{name}: {figures:?}");
+            if !kernel.ends_with("f64") {
+                assert_eq!(figures["Spilled VGPRs"], 0, "{scene} {name}");
+                let waits = scene == "glass";
+                assert!(waits || figures["Scratch size"] == 0, "{scene} {name}: {figures:?}");
             }
         }
     }

@@ -90,10 +90,10 @@ impl Features {
     }
 }
 
-/// Specialization constant 7: the iterations of loops that an invocation may take.
+/// Specialization constant 7: the iterations of loops that an invocation may take; 0 for any number.
 fn max_iterations(device: &Device) -> u32 {
     match device.description().kind {
         DeviceKind::Cpu => CPU_MAX_ITERATIONS,
-        DeviceKind::Discrete | DeviceKind::Integrated | DeviceKind::Virtual | DeviceKind::Other => u32::MAX,
+        DeviceKind::Discrete | DeviceKind::Integrated | DeviceKind::Virtual | DeviceKind::Other => 0,
     }
 }
