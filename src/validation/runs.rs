@@ -34,6 +34,10 @@ const SAMPLED_SCENE: &str = TWO_LIGHTS;
 /// All kinds of solids, too few for boxes over them, and two lights in sight.
 const TWO_LIGHTS: &str = "showcase with one light more";
 
+/// Enough lights for an algorithm that follows chance to choose among them; the others go through them all as through
+/// two.
+const MANY_LIGHTS: &str = "showcase with two lights more";
+
 /// How much of the gallery is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Scope {
@@ -90,13 +94,16 @@ fn subjects() -> Vec<Subject> {
     let mut subjects: Vec<_> =
         entries.filter_map(|entry| Some(subject(entry.name.clone(), gallery::scene(&entry.name)?))).collect();
     // What the gallery does not have: nothing is lit and nothing reflected; a second light, and its sphere in sight; a
-    // close-up.
+    // third; a close-up.
     if let Some(showcase) = gallery::scene("showcase") {
         let position = showcase.camera.position + showcase.camera.direction;
-        let lights = [showcase.lights.clone(), vec![Light { position, ..Light::default() }]].concat();
-        let two_lights = Scene { lights, ..showcase.clone() };
+        let more = |count| {
+            let lights = [showcase.lights.clone(), vec![Light { position, ..Light::default() }; count]].concat();
+            Scene { lights, ..showcase.clone() }
+        };
+        subjects.push(subject(TWO_LIGHTS.to_owned(), more(1)));
+        subjects.push(subject(MANY_LIGHTS.to_owned(), more(2)));
         let unlit = Scene { lights: Vec::new(), max_depth: 1, ..showcase };
-        subjects.push(subject(TWO_LIGHTS.to_owned(), two_lights));
         subjects.push(subject("showcase without lights and reflections".to_owned(), unlit));
     }
     subjects.push(subject("a pillar on a planet".to_owned(), pillar_on_planet()));
@@ -195,7 +202,8 @@ impl Way {
         let row = kernel.algorithm().description();
         let is_refused = !row.is_of_accurate_model && course::check(scene).is_err();
         let is_shown_elsewhere = sampling != Sampling::PLAIN && subject.name != SAMPLED_SCENE;
-        if is_as_another || is_refused || is_shown_elsewhere {
+        let has_needless_lights = subject.name == MANY_LIGHTS && !row.is_statistical;
+        if is_as_another || is_refused || is_shown_elsewhere || has_needless_lights {
             return Ok(None);
         }
         let settings = if row.is_specialized {

@@ -60,7 +60,7 @@ pub(super) fn few_with_all(runs: &[Run], counts: impl Fn(State) -> bool) -> Vec<
 }
 
 /// What plans turn on and off, with whether this run has it; `None` for the course's kernel, which is always the same.
-fn states(run: &Run) -> Option<[State; 22]> {
+fn states(run: &Run) -> Option<[State; 23]> {
     let &Settings { kernel, approximations, width, height, without_boxes, samples, scale, .. } = &run.settings;
     if !kernel.description().is_of_accurate_model {
         return None;
@@ -103,6 +103,7 @@ fn states(run: &Run) -> Option<[State; 22]> {
         ("light spheres", light_spheres > 0),
         ("lights", lights > 0),
         ("several lights", lights > 1),
+        ("one of many lights", lights > 2),
         ("shadows", shadows),
         ("reflections", reflections),
         ("paths cut", approximations.min_throughput > 0.0),
