@@ -20,8 +20,8 @@ pub(super) trait Algorithm {
 
     fn kernel(&self) -> Kernel;
 
-    /// The program's own shader that is built into it, or that a build took the place of.
-    fn shader(&self) -> &'static Shader;
+    /// The program's own shaders that are built into it, or that builds took the places of.
+    fn shaders(&self) -> Vec<&'static Shader>;
 
     /// Draws from other builds from now on; binding sets made before are out of date.
     ///
@@ -147,7 +147,7 @@ pub(super) trait Renderer {
     /// See [`Algorithm::kernel`].
     fn kernel(&self) -> Kernel;
     /// See [`Algorithm::shader`].
-    fn shader(&self) -> &'static Shader;
+    fn shaders(&self) -> Vec<&'static Shader>;
     /// See [`Algorithm::rebuild`].
     fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError>;
     /// See [`Algorithm::target`].
@@ -209,8 +209,8 @@ impl<A: Algorithm> Renderer for Staged<A> {
         self.algorithm.kernel()
     }
 
-    fn shader(&self) -> &'static Shader {
-        self.algorithm.shader()
+    fn shaders(&self) -> Vec<&'static Shader> {
+        self.algorithm.shaders()
     }
 
     fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError> {

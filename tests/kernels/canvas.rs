@@ -166,21 +166,35 @@ fn another_build_of_the_kernel_that_draws_draws_from_then_on() {
 
     let build = |of: &Shader, code: &Shader| of.rebuilt(code.spirv().to_vec()).unwrap();
     assert!(shaders::COURSE.rebuilt(b"no SPIR-V".to_vec()).is_err());
-    easel.canvas.replace_shader(build(&shaders::COURSE, &shaders::COURSE)).unwrap();
-    easel.canvas.replace_shader(shaders::WHITTED_F32.clone()).unwrap();
+    easel.canvas.replace_shaders([build(&shaders::COURSE, &shaders::COURSE)]).unwrap();
+    easel.canvas.replace_shaders([shaders::WHITTED_F32.clone()]).unwrap();
     assert_eq!(easel.draw(&scene).1, 0, "another kernel's build, and the same one: nothing is traced anew");
-    easel.canvas.replace_shader(build(&shaders::WHITTED_F32, &shaders::WHITTED_PLAIN)).unwrap();
-    easel.canvas.replace_shader(build(&shaders::WHITTED_F32_PACKETS, &shaders::WHITTED_PLAIN_PACKETS)).unwrap();
+    easel.canvas.replace_shaders([build(&shaders::WHITTED_F32, &shaders::WHITTED_PLAIN)]).unwrap();
+    easel.canvas.replace_shaders([build(&shaders::WHITTED_F32_PACKETS, &shaders::WHITTED_PLAIN_PACKETS)]).unwrap();
     assert!(easel.draw(&scene).0 == plain);
     // It is kept while another kernel draws, and given up for a newer one.
     easel.canvas.use_kernel(Kernel::Course).unwrap();
     easel.draw(&scene);
     easel.canvas.use_kernel(ACCURATE).unwrap();
     assert!(easel.draw(&scene).0 == plain);
-    for own in [&shaders::WHITTED_F32, &shaders::WHITTED_F32_PACKETS] {
-        easel.canvas.replace_shader(own.clone()).unwrap();
-    }
+    easel.canvas.replace_shaders([&shaders::WHITTED_F32, &shaders::WHITTED_F32_PACKETS].map(Shader::clone)).unwrap();
     assert!(easel.draw(&scene).0 == accurate);
+}
+
+#[test]
+fn a_build_of_any_pass_draws_from_then_on() {
+    let device = TestDevice::open();
+    let (size, scene) = ([97, 61], scene("showcase"));
+    let mut easel = Easel::new(&device, size);
+    easel.canvas.use_kernel(Kernel::Ssr).unwrap();
+    assert!(easel.draw(&scene).1 > 0);
+    // Another as far as bytes go: its third word says which compiler made it.
+    for pass in [&shaders::SSR_DEPTHS, &shaders::SSR_REFLECT] {
+        let mut code = pass.spirv().to_vec();
+        code[8] ^= 1;
+        easel.canvas.replace_shaders([pass.rebuilt(code).unwrap()]).unwrap();
+        assert!(easel.draw(&scene).1 > 0, "{}", pass.name);
+    }
 }
 
 #[test]

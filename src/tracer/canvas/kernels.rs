@@ -20,17 +20,16 @@ impl Canvas {
         Ok(true)
     }
 
-    /// Another build of a shader of the program from the next chunk on; where the kernel is made from it, the picture
-    /// is to be [asked for](Canvas::show) again.
+    /// Other builds of shaders of the program from the next chunk on; where the kernel is made from one, the picture is
+    /// to be [asked for](Canvas::show) again.
     ///
     /// # Errors
-    /// The device does not take it; the last build goes on.
-    pub fn replace_shader(&mut self, build: Shader) -> Result<(), TracerError> {
-        let own = self.renderer.shader();
-        let is_used = own.name == build.name && self.builds.of(own).spirv() != build.spirv();
+    /// The device does not take them; the last builds go on.
+    pub fn replace_shaders(&mut self, changed: impl IntoIterator<Item = Shader>) -> Result<(), TracerError> {
         let mut builds = self.builds.clone();
-        builds.put(build);
-        if is_used {
+        changed.into_iter().for_each(|build| builds.put(build));
+        let differs = |own: &&Shader| self.builds.of(own).spirv() != builds.of(own).spirv();
+        if self.renderer.shaders().iter().any(differs) {
             self.renderer.rebuild(&builds)?;
             self.begin_anew();
         }

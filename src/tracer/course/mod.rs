@@ -132,8 +132,8 @@ impl Algorithm for CourseRenderer {
         Kernel::Course
     }
 
-    fn shader(&self) -> &'static Shader {
-        &shaders::COURSE
+    fn shaders(&self) -> Vec<&'static Shader> {
+        vec![&shaders::COURSE]
     }
 
     fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError> {

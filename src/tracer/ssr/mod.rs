@@ -11,7 +11,7 @@ use super::renderer::{Algorithm, MadeFor, Sample, State, TakenUp, TargetKind};
 use super::tiles::Tile;
 use super::whitted::{WhittedRenderer, WhittedState};
 use super::{Kernel, Settings, TracerError};
-use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Use};
+use crate::gpu::{BindingSet, Builds, Device, GpuError, Recorder, Resource, Shader, Use, shaders};
 use crate::scene::Scene;
 use passes::{DepthPyramid, Reflections, Variant};
 use surfaces::Surfaces;
@@ -93,8 +93,8 @@ impl Algorithm for SsrRenderer {
         Kernel::Ssr
     }
 
-    fn shader(&self) -> &'static Shader {
-        self.light.shader()
+    fn shaders(&self) -> Vec<&'static Shader> {
+        [self.light.shaders(), vec![&shaders::SSR_DEPTHS, &shaders::SSR_REFLECT]].concat()
     }
 
     fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError> {

@@ -168,8 +168,8 @@ impl Algorithm for WhittedRenderer {
         self.kernel
     }
 
-    fn shader(&self) -> &'static Shader {
-        shader_of(&self.device, self.kernel, WORKGROUP)
+    fn shaders(&self) -> Vec<&'static Shader> {
+        vec![shader_of(&self.device, self.kernel, WORKGROUP)]
     }
 
     fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError> {

@@ -21,13 +21,17 @@ impl Session {
         let Some(builds) = self.shader_watch.as_ref().and_then(|watch| watch.take()) else { return };
         let Some(screen) = &mut self.screen else { return };
         let canvases = &mut screen.canvases;
-        let replaced = builds.into_iter().map(|build| {
-            let build = build?;
-            let replaced = canvases.iter_mut().try_for_each(|canvas| canvas.replace_shader(build.clone()));
-            replaced.map_err(|error| error.to_string())
-        });
+        let (mut good, mut errors) = (Vec::new(), Vec::new());
+        for build in builds {
+            match build {
+                Ok(build) => good.push(build),
+                Err(error) => errors.push(error),
+            }
+        }
+        let replaced = canvases.iter_mut().try_for_each(|canvas| canvas.replace_shaders(good.iter().cloned()));
+        errors.extend(replaced.err().map(|error| error.to_string()));
         // The builds of one kernel have the same mistakes.
-        self.shader_error = replaced.filter_map(Result::err).reduce(|first, _| first);
+        self.shader_error = errors.into_iter().next();
         // The widgets of this frame are drawn already.
         self.wake();
     }
