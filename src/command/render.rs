@@ -145,9 +145,10 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     }
     let scene =
         if is_from_stream { args.streams.format.unwrap_or_default().read_scene()? } else { scene_named(&args.scene)? };
-    args.paths.check(args)?;
     let setting = setting(args)?;
-    args.ssr.check(setting.map_or(args.algorithm, |setting| setting.algorithm))?;
+    let algorithm = setting.map_or(args.algorithm, |setting| setting.algorithm);
+    args.paths.check(algorithm, args.repeat)?;
+    args.ssr.check(algorithm)?;
     let rendered = match setting {
         Some(setting) => on_device(args, &setting.shading.applied(&scene), &setting)?,
         None => on_cpu(args, args.shading.applied(&scene).into_owned())?,

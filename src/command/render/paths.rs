@@ -6,7 +6,6 @@ use std::time::{Duration, Instant};
 use anyhow::Result;
 use clap::Args;
 
-use super::RenderArgs;
 use crate::algorithm::Algorithm;
 use crate::command::interrupt::Listener;
 use crate::command::options::parse_positive;
@@ -41,8 +40,8 @@ pub struct PathArgs {
 impl PathArgs {
     /// # Errors
     /// An option that is not for the algorithm.
-    pub(super) fn check(&self, args: &RenderArgs) -> Result<(), TracerError> {
-        let is_statistical = args.settings.is_some() || args.algorithm.description().is_statistical;
+    pub(super) fn check(&self, algorithm: Algorithm, repeat: Option<u32>) -> Result<(), TracerError> {
+        let is_statistical = algorithm.description().is_statistical;
         let given = [
             ("--until-error", self.until_error.is_some()),
             ("--seconds", self.seconds.is_some()),
@@ -52,7 +51,7 @@ impl PathArgs {
             let others = Algorithm::names(|row| row.is_statistical);
             return Err(TracerError::Refused(format!("{option} is for the {others} algorithm")));
         }
-        if args.repeat.is_some() && args.algorithm.description().is_statistical {
+        if repeat.is_some() && is_statistical {
             let what = "--repeat is not for path tracing, whose every run over the picture is timed";
             return Err(TracerError::Refused(what.to_owned()));
         }
