@@ -200,7 +200,7 @@ fn judge_plans(seeds: std::ops::Range<u64>) {
 
 #[test]
 fn f32_is_chosen_where_it_is_right_and_nowhere_else() {
-    judge_plans(0..50);
+    judge_plans(0..75);
 }
 
 #[test]
