@@ -13,4 +13,4 @@ layout(local_size_x_id = 5, local_size_y_id = 6) in;
 #include "transport/transport.glsl"
 #include "path/trace.glsl"
 
-void main() { trace_samples(view()); }
+void main() { trace_samples(); }

@@ -16,4 +16,4 @@ void put(uint index, Path path, bool is_ended) { put(index, path.color, is_ended
 
 #include "whitted/trace.glsl"
 
-void main() { trace(view()); }
+void main() { trace(); }

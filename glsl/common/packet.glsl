@@ -17,17 +17,14 @@ uint bits_of_packet(uint mine) {
 
 bool any_of_packet(bool mine) { return bits_of_packet(uint(mine)) != 0u; }
 vec3 of_packet(vec3 mine, uint k) { return subgroupShuffle(mine, k); }
+vec4 of_packet(vec4 mine, uint k) { return subgroupShuffle(mine, k); }
 
 // Row `first + stride * k`, k < 8: this invocation has fetched the one whose k is its own number.
 #define OWN_ROW(rows, first, stride) texelFetch(rows, int((first) + (stride) * gl_SubgroupInvocationID))
-#define ROW_OF_EIGHT(own, rows, first, stride, k) subgroupShuffle(own, k)
 #else
 const bool IN_PACKETS = false;
 bool any_of_packet(bool mine) { return mine; }
 uint bits_of_packet(uint mine) { return mine; }
-vec3 of_packet(vec3 mine, uint k) { return mine; }
-#define OWN_ROW(rows, first, stride) vec4(0.0)
-#define ROW_OF_EIGHT(own, rows, first, stride, k) texelFetch(rows, int((first) + (stride) * (k)))
 #endif
 
 #define EIGHT_TIMES(WORK) WORK(0u) WORK(1u) WORK(2u) WORK(3u) WORK(4u) WORK(5u) WORK(6u) WORK(7u)

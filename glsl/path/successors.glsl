@@ -15,15 +15,15 @@ const Real ROULETTE_WEIGHT = 0.25;
 Real chosen;
 
 // What the diffuse, the mirrored and the refracted ray may weigh, by their brightest channel.
-Real3 possible_weights(Path path, Real reflection, Real transmission) {
+Real3 possible_weights(Path path, Material material, Real reflection, Real transmission) {
     Real most = largest_component(path.weight);
-    return Real3(largest_component(path.weight * (path.material.diffuse * path.material.color)), most * reflection,
-                 most * transmission);
+    Real diffuse = largest_component(path.weight * (material.diffuse * material.color));
+    return Real3(diffuse, most * reflection, most * transmission);
 }
 
 // On from the nearest hit, by the number that was drawn at its end.
 void go_on(inout Path path) {
-    Material material = path.material;
+    Material material = nearest_material(path);
     Hit hit = path.nearest;
     Real reflection = material.reflection, transmission = 0.0;
     Real3 through = path.incident;
@@ -42,7 +42,7 @@ void go_on(inout Path path) {
             }
         }
     }
-    Real3 weights = possible_weights(path, reflection, transmission);
+    Real3 weights = possible_weights(path, material, reflection, transmission);
     Real all = weights.x + weights.y + weights.z;
     Real place = chosen * all;
     // What weighs nothing is not chosen where a sum was rounded, either.
@@ -66,13 +66,14 @@ void go_on(inout Path path) {
 Real choice_of_light(Path path) { return pair(light_of(path.generation)).x; }
 
 // All light that comes from everywhere comes by paths.
-Real3 ambient_radiance(Material material, View view) { return Real3(0.0); }
+Real3 ambient_radiance(Material material) { return Real3(0.0); }
 
 void end_generation(inout Path path) {
+    Material material = nearest_material(path);
     path.color = limited(path.color + path.weight * path.local_radiance);
     path.generation++;
-    Real transmission = MEDIA != NO_MEDIA ? path.material.transmission : Real(0.0);
-    Real3 weights = possible_weights(path, path.material.reflection, transmission);
+    Real transmission = MEDIA != NO_MEDIA ? material.transmission : Real(0.0);
+    Real3 weights = possible_weights(path, material, material.reflection, transmission);
     Real all = weights.x + weights.y + weights.z;
     bool goes_further = HAS_REFLECTIONS && path.is_hit && all > 0.0 && path.generation < frame.depth;
     if (goes_further) {
@@ -86,7 +87,7 @@ void end_generation(inout Path path) {
         path.weight = min(path.weight, Real3(0.125 * LARGEST));
     }
     path.purpose = goes_further ? ONWARD : ENDED;
-    if (MEDIA == NESTED && goes_further && path.material.transmission > 0.0 && path.nearest.inside) {
+    if (MEDIA == NESTED && goes_further && material.transmission > 0.0 && path.nearest.inside) {
         path.ray = Ray(path.nearest.point, Real3(0.0), path.incident);
         path.origin_surface = OriginSurface(path.nearest.slot, path.nearest.face, false);
         ask_for_medium(path);

@@ -4,8 +4,9 @@
 #include "successors.glsl"
 
 // Sets a path's next ray out to the nearest hit: a primary one through the pixel, or one on from the last hit.
-void set_out(bool is_primary, uvec2 pixel, View view, inout Path path) {
+void set_out(bool is_primary, uvec2 pixel, inout Path path) {
     if (is_primary) {
+        View view = view_at_hand();
         path.ray = Ray(view.position, view.position_error, unit(direction_within(pixel, pair(PLACE_IN_PIXEL), view)));
         path.purpose = TO_NEAREST;
         path.color = Real3(0.0);
@@ -23,21 +24,21 @@ void set_out(bool is_primary, uvec2 pixel, View view, inout Path path) {
     path.may_see_light_sphere = LIGHT_SPHERES > 0u && (is_primary || is_from_camera);
     path.is_hit = false;
     path.search = search_up_to(FAR, path.origin_surface);
-    bool asks = MEDIA == NESTED && HAS_REFLECTIONS && view.may_be_in_medium;
+    bool asks = MEDIA == NESTED && HAS_REFLECTIONS && view_at_hand().may_be_in_medium;
     if (is_primary && asks) ask_for_medium(path);
 }
 
 // As `trace` of whitted/trace.glsl, but that a ray of a packet whose path has ended begins the next sample at once:
 // lengths of paths differ too much to wait for each other.
-void trace_samples(View view) {
+void trace_samples() {
+    hold();
     uvec2 pixel = tile_pixel(0u);
     uvec2 in_picture = unpacked(frame.tile_origin) + pixel;
     sequence.seed = hashed(frame.seed ^ hashed(in_picture.x | in_picture.y << 16));
     uint samples = is_there(pixel) ? frame.samples_at_once : 0u;
     uint begun = 0u;
     Real3 sum = Real3(0.0);
-    Path path = path_at_rest(view);
-    hold_boxes();
+    Path path = path_at_rest();
 
     for (;;) {
         iterations++;
@@ -52,10 +53,10 @@ void trace_samples(View view) {
                     sequence.index = frame.samples_before + begun;
                     begun++;
                 }
-                set_out(starts, pixel, view, path);
+                set_out(starts, pixel, path);
             }
             candidate = next_candidate(path);
-            is_unshaded = is_left_to_shade(candidate, view.background, path);
+            is_unshaded = is_left_to_shade(candidate, path);
 
             const uint WORK = 1u, RAY = 2u;
             bool is_under_way = path.purpose != ENDED || begun < samples;
@@ -64,7 +65,7 @@ void trace_samples(View view) {
             if (!IN_PACKETS || there_is != RAY || has_run_out()) break;
         }
 
-        bool is_done = solve(candidate, is_unshaded, view, path);
+        bool is_done = solve(candidate, is_unshaded, path);
         bool is_lit = casts_shadow_ray(is_done, path);
         if (is_done && !is_lit) end_generation(path);
         bool is_under_way = path.purpose != ENDED || begun < samples;

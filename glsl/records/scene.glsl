@@ -153,6 +153,16 @@ View view() {
     return View(a.xyz, a.w, b.xyz, b.w, c.xyz, c.w, d.xyz, e.xyz, f.xyz, e.w != 0.0, ambient_light);
 }
 
+// A packet holds what all its rays read time and again, once `hold` in search.glsl has read it. A ray that goes for itself
+// reads it anew: a GPU has as many rays under way as there are registers for.
+View held_view;
+
+View view_at_hand() {
+    View at_hand = held_view;
+    if (!IN_PACKETS) at_hand = view();
+    return at_hand;
+}
+
 Light light(uint index) {
     uint first = 7u + (HAS_ATTENUATION ? 3u : 2u) * index;
     Real4 a = ROW(view_and_lights, first), b = ROW(view_and_lights, first + 1u), c = Real4(1.0, 0.0, 1.0, 0.0);

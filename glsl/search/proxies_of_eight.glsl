@@ -2,7 +2,6 @@
 
 // The rows from which the invocation hands its packet one of eight proxies.
 struct OwnOutline {
-    uint first; // row of the group
     vec4 a;
     vec4 b;
 };
@@ -13,10 +12,9 @@ OwnOutline own_outline(uint kind_first, uint group, uint rows) {
     vec4 a = OWN_ROW(proxies, first, rows);
     vec4 b = vec4(0.0);
     if (rows > 1u) b = OWN_ROW(proxies, first + 1u, rows);
-    return OwnOutline(first, a, b);
+    return OwnOutline(a, b);
 }
 
-#if PACKETS
 // Which of the packet's bounding spheres, one an invocation, a ray that searches meets: a bit each.
 uint bounding_spheres_ahead(vec4 own, TraversalRay traversal, bool is_searching) {
     uint ahead = 0u;
@@ -25,4 +23,3 @@ uint bounding_spheres_ahead(vec4 own, TraversalRay traversal, bool is_searching)
 #undef TRY_SPHERE
     return bits_of_packet(is_searching ? ahead : 0u);
 }
-#endif

@@ -9,6 +9,7 @@ layout(local_size_x_id = 5, local_size_y_id = 6) in;
 #include "search/search.glsl"
 #include "camera/camera.glsl"
 #define Weight Real
+#define KEEPS_LIT true
 #include "transport/transport.glsl"
 #define ACCESS writeonly
 #define RADIANCES 0
@@ -19,9 +20,9 @@ void put(uint index, Path path, bool is_ended) {
     uvec2 pixel = tile_pixel(index);
     if (is_there(pixel)) {
         uint place = place_of(pixel);
-        View camera = view();
+        View camera = view_at_hand();
         bool is_solid = is_ended && path.is_hit;
-        float reflection = is_solid ? path.material.reflection : 0.0;
+        float reflection = is_solid ? nearest_material(path).reflection : 0.0;
         float ahead = dot(path.nearest.point - camera.position, camera.ahead);
         float nearness = is_solid && ahead > 0.0 ? 1.0 / ahead : 0.0;
         Side side = Side(path.nearest.face, path.nearest.inside, path.lit);
@@ -34,4 +35,4 @@ void put(uint index, Path path, bool is_ended) {
 
 #include "whitted/trace.glsl"
 
-void main() { trace(view()); }
+void main() { trace(); }

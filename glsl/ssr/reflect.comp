@@ -59,13 +59,16 @@ bool is_side_shown(Hit hit, uvec2 pixel) {
 // solid was seen.
 uint reason_for(Found found, March march, View view, out uvec2 pixel) {
     pixel = found.pixel;
+    // A cell of the pyramid may reach beyond the picture.
+    vec2 end = floor(place_at(march, march.end)), size = vec2(unpacked(frame.image_size));
+    bool is_within = march.end < LARGEST && all(greaterThanEqual(end, vec2(0.0))) && all(lessThan(end, size));
     if (!found.is_met) {
         if (march.has_passed) return PASSED_BEHIND;
-        return march.ending == OFF_SCREEN ? LEFT_SCREEN : FOUND;
+        return march.ending == OFF_SCREEN || !is_within ? LEFT_SCREEN : FOUND;
     }
     if (dot(found.hit.normal, found.hit.point - view.position) >= 0.0) return BACK;
-    ivec2 own = ivec2(floor(place_at(march, march.end)));
-    if (any(lessThan(own, ivec2(0))) || any(greaterThanEqual(own, ivec2(unpacked(frame.image_size))))) return LEFT_SCREEN;
+    if (!is_within) return LEFT_SCREEN;
+    ivec2 own = ivec2(end);
     if (is_side_shown(found.hit, uvec2(own))) {
         pixel = uvec2(own);
         return FOUND;

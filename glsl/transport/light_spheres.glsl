@@ -12,9 +12,9 @@ bool may_meet_light_sphere(Ray ray, Light light) {
     return dot(across, across) <= radius * radius && ahead >= -radius;
 }
 
-// `current_light`: the only one, where there is but one.
+// `current_light`: the only one, where there is but one and packets hold it.
 Light light_with_sphere(uint index, Light current_light) {
-    if (LIGHT_SPHERES > 1u) return light(index);
+    if (LIGHT_SPHERES > 1u || !IN_PACKETS) return light(index);
     return current_light;
 }
 

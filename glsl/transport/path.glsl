@@ -50,7 +50,8 @@ struct Path {
 };
 
 // Before the first pixel.
-Path path_at_rest(View view) {
+Path path_at_rest() {
+    View view = view_at_hand();
     Path path;
     path.color = Real3(0.0);
     path.weight = Weight(1.0);
@@ -65,13 +66,21 @@ Path path_at_rest(View view) {
     path.may_see_light_sphere = false;
     path.search = SearchState(FAR, 0u, -1, false);
     path.is_hit = false;
+    path.nearest.slot = 0u;
     path.incident = path.ray.direction;
     path.local_radiance = Real3(0.0);
     path.light_index = 0u;
     path.lit = 0u;
-    // The only one is read once.
-    if (LIGHTS == 1u || LIGHT_SPHERES == 1u) path.light = light(0u);
+    // A packet reads the only one once.
+    if (IN_PACKETS && (LIGHTS == 1u || LIGHT_SPHERES == 1u)) path.light = light(0u);
     return path;
+}
+
+// Of the nearest hit, or of any solid where there is none.
+Material nearest_material(Path path) {
+    Material nearest = path.material;
+    if (!IN_PACKETS) nearest = material(path.nearest.slot);
+    return nearest;
 }
 
 // Whether the path's next ray is still to be made.

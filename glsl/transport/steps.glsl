@@ -4,7 +4,7 @@
 // A generation is over. Decides what the next ray is cast for.
 void end_generation(inout Path path);
 // What a surface sends back of light that comes from everywhere, before its lights.
-Real3 ambient_radiance(Material material, View view);
+Real3 ambient_radiance(Material material);
 // Between 0 and 1, by chance: which of many lights the hit's shadow ray goes to.
 Real choice_of_light(Path path);
 
@@ -51,7 +51,7 @@ Candidate next_candidate(Path path) {
 }
 
 // A ray that meets nothing more ends its generation at once, if nothing is left to be shaded; else this is true.
-bool is_left_to_shade(Candidate candidate, Real3 background, inout Path path) {
+bool is_left_to_shade(Candidate candidate, inout Path path) {
     bool is_asking = asks_for_medium(path), is_shadow = is_shadow_ray(path);
     if (is_asking && !candidate.is_there) path.purpose = ONWARD;
     bool is_through = path.purpose != ENDED && !candidate.is_there && !is_asking;
@@ -59,17 +59,17 @@ bool is_left_to_shade(Candidate candidate, Real3 background, inout Path path) {
     bool has_something = path.is_hit || (LIGHT_SPHERES > 0u && path.may_see_light_sphere);
     bool is_left = is_through && (is_shadow ? has_lights_left : has_something);
     if (is_through && is_shadow && !candidate.hides_light) add_light(path.light_index - 1u, path.direct, path);
-    if (is_through && !is_shadow && !path.is_hit) path.local_radiance = background;
+    if (is_through && !is_shadow && !path.is_hit) path.local_radiance = view_at_hand().background;
     if (is_through && !is_left) end_generation(path);
     return is_left;
 }
 
 // Solves a candidate exactly and keeps it if it is the nearest so far. True where the ray has come to its end; then its
 // radiance is begun, or a shadow ray's light is added.
-bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path path) {
+bool solve(Candidate candidate, bool is_left_to_shade, inout Path path) {
     bool is_shadow = is_shadow_ray(path), is_asking = asks_for_medium(path), is_own_due = path.search.is_own_due;
     // What the ray meets where it meets no solid before.
-    Real3 seen = view.background;
+    Real3 seen = view_at_hand().background;
     Real seen_t = LARGEST;
     if (LIGHT_SPHERES > 0u) {
         Real3 intensity;
@@ -88,7 +88,7 @@ bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path pat
     bool is_met = meet(slot, path.ray, path.origin_surface, hit) && candidate.is_there;
     Material material = material(slot);
     if (!is_shadow && !is_asking && is_met && (LIGHT_SPHERES == 0u || hit.t <= seen_t) &&
-        (!path.is_hit || is_nearer(hit, material.primitive, path.nearest, path.material.primitive, path.ray))) {
+        (!path.is_hit || is_nearer(hit, material.primitive, path.nearest, nearest_material(path).primitive, path.ray))) {
         path.nearest = hit;
         path.material = material;
         path.is_hit = true;
@@ -127,7 +127,8 @@ bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path pat
     if (candidate.is_there && is_done && is_shadow && !hides_light)
         add_light(path.light_index - 1u, path.direct, path);
     if (is_done && !is_shadow) {
-        path.local_radiance = path.is_hit ? ambient_radiance(path.material, view) : seen;
+        path.local_radiance = seen;
+        if (path.is_hit) path.local_radiance = ambient_radiance(nearest_material(path));
         path.origin_surface = OriginSurface(path.nearest.slot, path.nearest.face, path.nearest.inside);
         path.incident = path.ray.direction;
         path.light_index = 0u;
@@ -139,6 +140,11 @@ bool solve(Candidate candidate, bool is_left_to_shade, View view, inout Path pat
 // The brightest channel of what a weight makes of a radiance.
 Real brightest(Real weight, Real3 radiance) { return weight * largest_component(radiance); }
 Real brightest(Real3 weight, Real3 radiance) { return largest_component(weight * radiance); }
+
+// Whether it is kept of a hit which lights reach it: then those are tried, too, that give this pixel nothing.
+#ifndef KEEPS_LIT
+#define KEEPS_LIT false
+#endif
 
 // The least brightness that is chosen by.
 const Real LEAST_CHOSEN = 1e-30;
@@ -161,17 +167,17 @@ bool casts_shadow_ray(bool is_done, inout Path path) {
         for (;;) {
             iterations++;
             Light next = path.light;
-            if (LIGHTS > 1u) next = light(min(path.light_index, frame.light_count - 1u));
+            if (LIGHTS > 1u || !IN_PACKETS) next = light(min(path.light_index, frame.light_count - 1u));
             Real light_distance;
             Real3 to_light = towards(next, path.nearest.point, light_distance);
             Real cosine = dot(path.nearest.normal, to_light);
             // A light at the hit point gives nothing.
             bool shines = is_seeking && light_distance > 0.0 && cosine > 0.0 &&
                           (path.nearest.face == CURVED || is_above(next, path.nearest, cosine * light_distance));
-            Real3 direct = direct_radiance(path.material, path.nearest.normal, path.incident, to_light, light_distance,
+            Real3 direct = direct_radiance(nearest_material(path), path.nearest.normal, path.incident, to_light, light_distance,
                                            cosine, next);
             // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
-            bool is_faint = brightest(path.weight, direct) <= Real(frame.min_shadowed);
+            bool is_faint = !KEEPS_LIT && brightest(path.weight, direct) <= Real(frame.min_shadowed);
             bool is_chosen = true;
             if (CHOOSES_LIGHT) {
                 direct = limited(direct);

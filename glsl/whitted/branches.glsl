@@ -54,7 +54,7 @@ void resume(inout Path path) {
 
 // On from the nearest hit. Where all is reflected, the mirrored ray gets the refracted one's weight, too.
 void branch(inout Path path) {
-    Material material = path.material;
+    Material material = nearest_material(path);
     Hit hit = path.nearest;
     Branch mirror = Branch(unit(mirrored(path.incident, hit.normal)), path.weight * material.reflection, path.medium,
                            hit.inside);

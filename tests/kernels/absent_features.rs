@@ -85,7 +85,7 @@ const GONE: [(&str, &[&str]); 11] = [
     ("cylinders", &["cylinder_rows", "cylinder(", "search_cylinder(", "key_of_cylinder("]),
     ("cones", &["cone_rows", "cone(", "search_cone(", "key_of_cone("]),
     ("rotated boxes", &[]),
-    ("structures", &["enter_boxes(", "boxes_ahead("]),
+    ("structures", &["entry_of_box("]),
     ("light spheres", &["may_meet_a_light_sphere(", "light_sphere_ahead("]),
     ("several lights", &[]),
     ("lights", &["light(", "light_sphere_ahead(", "towards(", "direct_radiance(", "is_before("]),
