@@ -512,7 +512,8 @@ fn an_interrupt_stops_the_render_and_leaves_nothing() {
 fn plan_tells_what_runs_what_is_left_out_and_why() {
     let place = Place::new();
     let report = place.json(&["plan", "corridor", "--error", "1/510", "--size", "64x28", "--json"]);
-    let documented = ["bound", "bounds", "cuts", "decisions", "device", "error", "height", "scene", "warning", "width"];
+    let documented =
+        ["bound", "bounds", "compiled", "cuts", "decisions", "device", "error", "height", "scene", "warning", "width"];
     assert_eq!(keys(&report), documented.into());
     assert_eq!((&report["scene"], &report["width"], &report["height"]), (&"corridor".into(), &64.into(), &28.into()));
     let (error, bound) = (report["error"].as_f64().unwrap(), report["bound"].as_f64().unwrap());
