@@ -126,8 +126,8 @@ const uint APART = 1u;
 const uint NESTED = 2u;
 
 // Mesa's CPU drivers cut an invocation's loops short, without a word, after 65535 iterations of all of them together:
-// there the search ends before that, and says so. 0: without limit, and then nothing may be compared, as compilers count
-// a loop that a constant ends: RADV of Mesa 25 does so endlessly in a scene without solids.
+// there the search ends before that, and says so. 0: without limit, and then nothing is compared. With the greatest
+// number instead, RADV of Mesa 25 compiled a scene without solids endlessly.
 layout(constant_id = 7) const uint MAX_ITERATIONS = 0u;
 uint iterations = 0u;
 bool has_run_out() { return MAX_ITERATIONS > 0u && iterations >= MAX_ITERATIONS; }

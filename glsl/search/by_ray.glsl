@@ -1,5 +1,5 @@
-// The search of a ray that goes for itself through the solids of a kind: one row at a time, so that little is kept at once.
-// A GPU hides the time that a row takes by the other rays it has registers for.
+// The search of a ray that goes for itself through the solids of a kind: one row at a time, so that little is kept at
+// once. A GPU hides the time that a row takes by the other rays it has registers for.
 
 void OF_KIND(try_one)(uint group_row, uint k, int entry, TraversalRay traversal, inout Group eight) {
     int row = int(group_row + PROXY_ROWS * k);

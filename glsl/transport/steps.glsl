@@ -174,8 +174,8 @@ bool casts_shadow_ray(bool is_done, inout Path path) {
             // A light at the hit point gives nothing.
             bool shines = is_seeking && light_distance > 0.0 && cosine > 0.0 &&
                           (path.nearest.face == CURVED || is_above(next, path.nearest, cosine * light_distance));
-            Real3 direct = direct_radiance(nearest_material(path), path.nearest.normal, path.incident, to_light, light_distance,
-                                           cosine, next);
+            Real3 direct = direct_radiance(nearest_material(path), path.nearest.normal, path.incident, to_light,
+                                           light_distance, cosine, next);
             // Too little for a shadow ray: half of it is off by half of it, whatever is in the way.
             bool is_faint = !KEEPS_LIT && brightest(path.weight, direct) <= Real(frame.min_shadowed);
             bool is_chosen = true;

@@ -42,7 +42,7 @@ pub use lines::Line;
 pub use reason::Reason;
 pub use rounding::{Cause, Near, Rounding};
 pub use structure::Structure;
-pub use tiling::{rays_per_pixel, tile_side, tried_under_boxes};
+pub use tiling::{SAMPLES_AT_ONCE, rays_per_pixel, tile_side, tried_under_boxes};
 pub use traversal_cost::{CPU_MAX_ITERATIONS, MOST_PIXELS, TraversalCost};
 
 use glam::DVec3;
@@ -252,7 +252,7 @@ impl Plan {
             structures: Structure::decide(counts, settings),
             workgroup: Decision { choice: WORKGROUP, reason: Reason::SquareWorkgroup },
             pixels: traversal_cost::decide(scene, kernel, generations.choice, limits),
-            tile_side: tiling::decide(scene, generations.choice, limits),
+            tile_side: tiling::decide(scene, kernel, generations.choice, limits),
             generations,
             approximations,
             bounds,

@@ -1,14 +1,19 @@
 //! How much of a picture one submission traces.
 
-use super::{Decision, Limits, MOST_PIXELS, Reason, Structure, WORKGROUP};
+use super::{Decision, Kernel, Limits, MOST_PIXELS, Reason, Structure, WORKGROUP};
+use crate::algorithm::Description;
 use crate::scene::Scene;
 
 /// Pixels: larger tiles save nothing more.
 const LARGEST_SIDE: u32 = 1024;
 
-pub(super) fn decide(scene: &Scene, generations: u32, limits: &Limits) -> Decision<u32> {
+/// Samples of each pixel that one submission of an algorithm that follows chance takes: enough that bringing them back
+/// costs nothing beside, few enough for it to be short.
+pub const SAMPLES_AT_ONCE: u32 = 8;
+
+pub(super) fn decide(scene: &Scene, kernel: Kernel, generations: u32, limits: &Limits) -> Decision<u32> {
     let largest = LARGEST_SIDE.min(limits.max_image_side);
-    let rays = rays_per_pixel(scene, generations);
+    let rays = rays_per_pixel(scene, kernel.description(), generations);
     let choice = tile_side(largest, tried_under_boxes(scene.primitives.len()), scene.lights.len(), rays);
     let reason = if choice < largest { Reason::HeavyTiles { largest } } else { Reason::LightTiles };
     Decision { choice, reason }
@@ -23,10 +28,12 @@ pub fn tried_under_boxes(solids: usize) -> usize {
 
 /// Rays that a pixel takes from surface to surface: one a generation, or, where they may be both mirrored and refracted,
 /// as many as branches of all generations have; no more of these are counted than make a tile the smallest among a few
-/// solids.
-pub fn rays_per_pixel(scene: &Scene, generations: u32) -> u64 {
+/// solids. A path by chance has no branches, and a pixel several paths.
+pub fn rays_per_pixel(scene: &Scene, algorithm: &Description, generations: u32) -> u64 {
     const MOST_BRANCHES: u32 = 12;
-    if scene.has_transmission() {
+    if algorithm.is_statistical {
+        u64::from(SAMPLES_AT_ONCE) * u64::from(generations)
+    } else if scene.has_transmission() {
         u64::from(generations).max((1 << generations.min(MOST_BRANCHES)) - 1)
     } else {
         generations.into()
@@ -51,6 +58,7 @@ pub fn tile_side(max: u32, tried: usize, lights: usize, rays_per_pixel: u64) -> 
 #[cfg(test)]
 mod tests {
     use super::{rays_per_pixel, tile_side, tried_under_boxes};
+    use crate::algorithm::Algorithm;
     use crate::scene::gallery;
 
     #[test]
@@ -65,9 +73,13 @@ mod tests {
 
     #[test]
     fn rays_branch_where_something_lets_light_through() {
-        let rays = |name: &str, generations| rays_per_pixel(&gallery::scene(name).unwrap(), generations);
+        let by = |algorithm: Algorithm, name: &str, generations| {
+            rays_per_pixel(&gallery::scene(name).unwrap(), algorithm.description(), generations)
+        };
+        let rays = |name: &str, generations| by(Algorithm::Whitted, name, generations);
         assert_eq!([1, 20].map(|generations| rays("showcase", generations)), [1, 20]);
         assert_eq!([1, 3, 20, 10_000].map(|generations| rays("glass", generations)), [1, 7, 4095, 10_000]);
+        assert_eq!(["showcase", "glass"].map(|name| by(Algorithm::Path, name, 20)), [160, 160]);
     }
 
     #[test]

@@ -14,11 +14,8 @@ use serde::Serialize;
 use super::{Run, Settings, Tracer, TracerError};
 use crate::frame::Frame;
 use crate::gpu::Device;
+use crate::plan::SAMPLES_AT_ONCE;
 use crate::scene::Scene;
-
-/// Samples of each pixel in one run, unless they take too many iterations: enough that bringing them back costs
-/// nothing beside, few enough for a run to be short.
-const SAMPLES_AT_ONCE: u32 = 8;
 
 /// Fewest runs before an estimate of the error is worth something: of k runs it is off by a part of about
 /// √(1/(2·(k − 1))).
@@ -31,6 +28,7 @@ pub struct Progressive {
     estimates: Vec<Estimate>,
     samples: u32,
     runs: u32,
+    // Fewer where they take too many iterations.
     samples_at_once: u32,
     seed: u32,
 }

@@ -146,7 +146,7 @@ struct Staged<A: Algorithm> {
 pub(super) trait Renderer {
     /// See [`Algorithm::kernel`].
     fn kernel(&self) -> Kernel;
-    /// See [`Algorithm::shader`].
+    /// See [`Algorithm::shaders`].
     fn shaders(&self) -> Vec<&'static Shader>;
     /// See [`Algorithm::rebuild`].
     fn rebuild(&mut self, builds: &Builds) -> Result<(), GpuError>;

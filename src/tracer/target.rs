@@ -84,7 +84,8 @@ fn traced_side(scene: &Scene, settings: &Settings, limit: u32) -> u32 {
     let solids = scene.primitives.len();
     let has_boxes = settings.kernel.description().has_hierarchy && !settings.without_boxes;
     let tried = if has_boxes { tried_under_boxes(solids) } else { solids };
-    tile_side(max_tile_side, tried, scene.lights.len(), rays_per_pixel(scene, settings.generations(scene)))
+    let rays = rays_per_pixel(scene, settings.kernel.description(), settings.generations(scene));
+    tile_side(max_tile_side, tried, scene.lights.len(), rays)
 }
 
 /// Side of the tile made from that, but for the neighbours that its edge needs.

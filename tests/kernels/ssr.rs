@@ -6,16 +6,17 @@ use std::path::Path;
 
 use crate::budget;
 use crate::common::{TestDevice, render};
-use crate::scenes::{mixed_scene, picture};
+use crate::scenes::{cube, light, material, mixed_scene, picture, primitive, sphere};
 use crate::tracers::Tracers;
 use glam::{DVec2, DVec3};
+use zerkalo::frame::Frame;
 use zerkalo::gpu::{
     BindingKind, BindingSet, Buffer, BufferKind, Builds, Commands, ComputePipeline, InFlight, PipelineDescription,
     Resource, Use, shaders,
 };
 use zerkalo::plan::Approximations;
 use zerkalo::reference::{Hit, OriginSurface, PrimaryRays, Ray, World};
-use zerkalo::scene::{Camera, Light, Projection, Scene, gallery};
+use zerkalo::scene::{Camera, Light, Material, Projection, Scene, Solid, gallery};
 use zerkalo::tracer::{Canvas, Kernel, Precision, Settings, Tracer, TracerError};
 
 const SIZE: [u32; 2] = [162, 70];
@@ -287,6 +288,59 @@ fn reasons_are_told_in_the_colours_of_the_legend() {
     }
     println!("{counts:?}");
     assert!(counts.iter().all(|&count| count > 0), "{counts:?}");
+}
+
+/// Each light is shut up in a box, so that all is dark. What gives a pixel nothing may give its mirror image a highlight.
+#[test]
+fn a_light_that_something_hides_makes_no_highlight_in_a_mirror() {
+    let device = TestDevice::open();
+    let (dark, shiny) = (material(0.0, 0.0, 0.0), Material { reflection: Some(0.0), ..material(0.0, 0.0, 0.8) });
+    let looking_glass = Material { reflection: Some(1.0), ..dark.clone() };
+    for degrees in (0..360).step_by(45) {
+        let angle = f64::from(degrees).to_radians();
+        let place = DVec3::new(1.0, 12.0 * angle.cos(), 12.0 * angle.sin());
+        let primitives = vec![
+            primitive(sphere(DVec3::ZERO, 1.0), shiny.clone()),
+            primitive(cube(DVec3::Y * -7.5, 6.0), looking_glass.clone()),
+            primitive(cube(place, 1.0), dark.clone()),
+        ];
+        // It sees the ball from a little above, and in the mirror beneath from a little below.
+        let position = DVec3::new(0.0, 1.0, -14.0);
+        let camera = Camera { position, direction: -position, ..Camera::default() };
+        let lights = vec![light(place.x, place.y, place.z)];
+        let scene = Scene { camera, background: DVec3::ZERO, lights, primitives, ..Scene::default() };
+        for settings in [whitted(SIZE), ssr(SIZE)] {
+            let picture = render(&device, &scene, &settings);
+            let lit = picture.pixels().iter().filter(|pixel| **pixel != [0.0; 3]).count();
+            assert_eq!(lit, 0, "{degrees}° by {}", settings.kernel.name());
+        }
+    }
+}
+
+/// Cells of the pyramid reach beyond the picture on the right and below only.
+#[test]
+fn rays_leave_the_screen_on_the_right_as_on_the_left() {
+    let device = TestDevice::open();
+    let looking_glass = Material { reflection: Some(1.0), ..material(0.0, 0.0, 0.0) };
+    let size = [405, 175];
+    let reasons = |side: f64, degrees: f64| {
+        let wall = Solid::Box {
+            center: DVec3::new(side * 3.0, 0.0, 6.0),
+            half_size: DVec3::new(0.1, 3.0, 6.0),
+            rotation_degrees: DVec3::Y * side * degrees,
+        };
+        let primitives = vec![primitive(wall, looking_glass.clone())];
+        let scene = Scene { primitives, ..Scene::default() };
+        render(&device, &scene, &Settings { shows_reasons: true, ..ssr(size) })
+    };
+    for degrees in [-4.0, 4.0] {
+        let [left, right] = [-1.0, 1.0].map(|side| reasons(side, degrees));
+        let rows = |frame: &Frame| frame.pixels().chunks(size[0] as usize).map(<[_]>::to_vec).collect::<Vec<_>>();
+        let flipped = rows(&right).into_iter().flat_map(|row| row.into_iter().rev()).collect::<Vec<_>>();
+        let differing = differing(left.pixels(), &flipped);
+        // Where two colours meet, rounding may decide by the side: a pixel of a row at most on either side of the blue.
+        assert!(differing <= 2 * size[1] as usize, "{degrees}°: {differing} pixels");
+    }
 }
 
 /// The pyramid's levels are made one from the other; neither the layer nor a CPU device shows that one came too early.

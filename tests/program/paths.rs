@@ -76,6 +76,12 @@ fn what_makes_no_sense_is_refused_in_a_line() {
         place.assert_refused(&arguments, 2, &["path"]);
     }
     place.assert_refused(&["render", "matt", "-o", "x.exr", "--samples", "65"], 2, &["1 to 64"]);
+    // A file of settings says which algorithm it is.
+    for (algorithm, option) in [("path", ["--repeat", "3"]), ("whitted", ["--until-error", "0.1"])] {
+        fs::write(place.path("s.toml"), format!("algorithm = \"{algorithm}\"\n")).unwrap();
+        let arguments = [&["render", "matt", "-o", "x.exr", "--settings", "s.toml"][..], &option].concat();
+        place.assert_refused(&arguments, 2, &[option[0]]);
+    }
 }
 
 #[test]

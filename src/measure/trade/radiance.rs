@@ -23,7 +23,8 @@ pub struct Radiance {
     pub standard_error: f64,
 }
 
-/// Path-traces a scene on a device by so many samples a pixel, in the precision that the plan chooses for it. `progress` hears of how many there are.
+/// Path-traces a scene on a device by so many samples a pixel, in the precision that the plan chooses for it. `progress`
+/// hears of how many there are.
 ///
 /// # Errors
 /// The device cannot draw the scene, fails, `progress` stopped it, or the samples are too few to tell their own error:
