@@ -590,7 +590,7 @@ fn plan_refuses_wrong_wishes() {
 fn stability_prints_a_row_a_case_and_fails_only_for_the_accurate_kernel() {
     let place = Place::new();
     let files = ["-o", "sheet.png", "-o", "table.json", "-o", "table.csv", "-o", "table.md"];
-    let report = place.json(&[&["stability", "--quick", "--algorithm", "plain", "--json"][..], &files].concat());
+    let report = place.json(&[&["stability", "--quick", "--algorithm", "course", "--json"][..], &files].concat());
     assert_eq!(keys(&report), ["cases", "complete", "device", "driver", "quick"].into());
     let cases = report["cases"].as_array().unwrap();
     assert!(cases.len() > 80);
@@ -598,7 +598,7 @@ fn stability_prints_a_row_a_case_and_fails_only_for_the_accurate_kernel() {
         assert_eq!(keys(case), ["bound", "id", "kernel", "measured", "pass", "precision", "what"].into());
     }
     let failed = cases.iter().filter(|case| case["pass"] == false).count();
-    assert!(failed > 20, "plain quadratics fail much, and that is no failure of the program");
+    assert!(failed > 20, "the course's kernel fails much, and that is no failure of the program");
     assert!(Frame::load(&place.path("sheet.png")).is_ok());
     let [json, csv, markdown] = ["json", "csv", "md"]
         .map(|extension| fs::read_to_string(place.path("table").with_extension(extension)).unwrap());

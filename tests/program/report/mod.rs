@@ -88,7 +88,7 @@ fn what_is_not_whole_is_said_to_be_so() {
         zerkalo::report::Ending::NotBegun,
         zerkalo::report::Ending::Failed("the device is <gone>".to_owned()),
     ] {
-        let mut report = example::report();
+        let mut report = whole.clone();
         report.fps.ending = ending;
         report.fps.content.cells.clear();
         report.trade.content.scenes.clear();
