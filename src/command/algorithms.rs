@@ -21,7 +21,7 @@ use crate::scene::Scene;
 /// tracing by all samples together.
 #[derive(Debug, Clone, Args)]
 pub struct AlgorithmsArgs {
-    /// Scene files (.toml, .json, .zscene) or names of `zerkalo gallery`
+    /// Scene files (.toml, .json, .zscene, .nff) or names of `zerkalo gallery`
     #[arg(default_values = DEFAULT_SCENES)]
     pub scenes: Vec<String>,
     /// Pixels, each side 1 to 16384

@@ -33,6 +33,7 @@ use crate::gpu::{GpuError, Message, Messages, Validation};
 use crate::measure::fps_table::FpsTableError;
 use crate::measure::output::{OutputError, ReportFormat, check_output_path};
 use crate::plan::PlanError;
+use crate::scene::format::{Note, NoteKind, Reading};
 use crate::scene::{Scene, SceneError, gallery as ready};
 use crate::settings::SettingsError;
 use crate::tracer::TracerError;
@@ -154,11 +155,53 @@ pub struct ValidationFailed {
     count: usize,
 }
 
+/// How scene files of other programs are taken.
+#[derive(Debug, Clone, Copy, Default, Args)]
+pub struct ReadingArgs {
+    /// Refuse a scene file of which anything is lost or changed, in place of a warning
+    #[arg(long)]
+    pub strict: bool,
+}
+
+impl ReadingArgs {
+    /// A ready scene by its name, else a scene from a file; what that has of no place in a scene is told.
+    fn read(self, name: &str) -> Result<Reading, SceneError> {
+        self.told(name, reading_named(name)?)
+    }
+
+    /// Tells what there is to be told of a file.
+    fn told(self, name: &str, reading: Reading) -> Result<Reading, SceneError> {
+        let in_file = |mut error: SceneError| {
+            error.path = Some(name.into());
+            error
+        };
+        let reading = if self.strict { reading.strict().map_err(in_file)? } else { reading };
+        for Note { line, what, kind } in &reading.notes {
+            let line = line.map(|line| format!(":{line}")).unwrap_or_default();
+            let word = match kind {
+                NoteKind::Assumed => "note",
+                NoteKind::Lost => "warning",
+            };
+            eprintln!("{word}: {}{line}: {what}", name.escape_debug());
+        }
+        Ok(reading)
+    }
+}
+
+/// Pixels of a picture: what was asked for, else what the scene's file offers, else the course work's.
+fn size_or_offered(asked: Option<(u32, u32)>, offered: Option<[u32; 2]>) -> [u32; 2] {
+    asked.map(|(width, height)| [width, height]).or(offered).unwrap_or([1621, 701])
+}
+
 /// A ready scene by its name, else a scene from a file.
 fn scene_named(name: &str) -> Result<Scene, SceneError> {
+    Ok(ReadingArgs::default().read(name)?.scene)
+}
+
+fn reading_named(name: &str) -> Result<Reading, SceneError> {
     match ready::scene(name) {
-        Some(scene) => Ok(scene),
-        None => Scene::load(Path::new(name)).map_err(|mut error| {
+        Some(scene) => Ok(scene.into()),
+        None => Scene::read(Path::new(name)).map_err(|mut error| {
             if !Path::new(name).exists() {
                 error.what.push_str("; nor is it a name of `zerkalo gallery`");
                 error.what.extend(nearest_ready(name).map(|near| format!(": did you mean {near}?")));

@@ -5,19 +5,22 @@ use clap::Args;
 use serde::Serialize;
 
 use super::options::{parse_algorithm, parse_depth, parse_error, parse_size};
-use super::{DeviceArgs, print_json, print_line, scene_named};
+use super::{DeviceArgs, ReadingArgs, print_json, print_line, size_or_offered};
 use crate::algorithm::{Algorithm, Description, Precision};
 use crate::gpu::{self, CompiledKernel, Device, DeviceDescription, GpuError, Statistic};
 use crate::plan::{Approximations, Bounds, Limits, Line, Plan};
 use crate::scene::Scene;
+use crate::scene::format::Reading;
 use crate::settings::{RenderSettings, Shading};
 use crate::tracer::{Settings, compile, limits_of};
 
 /// Tell what will run for a scene, what is left out and why, and what that saves
 #[derive(Debug, Clone, Args)]
 pub struct PlanArgs {
-    /// A scene file (.toml, .json, .zscene) or a name of `zerkalo gallery`
+    /// A scene file (.toml, .json, .zscene, .nff) or a name of `zerkalo gallery`
     pub scene: String,
+    #[command(flatten)]
+    pub reading: ReadingArgs,
     /// Largest allowed change of any linear channel, such as 0.002 or 1/510; 0 is exact
     #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error, allow_hyphen_values = true)]
     pub error: f64,
@@ -33,9 +36,9 @@ pub struct PlanArgs {
     /// How much of the light model is drawn
     #[arg(long, value_enum, default_value_t)]
     pub shading: Shading,
-    /// Pixels, each side 1 to 16384
-    #[arg(long, value_name = "WxH", default_value = "1621x701", value_parser = parse_size)]
-    pub size: (u32, u32),
+    /// Pixels, each side 1 to 16384 [default: what the scene's file says, else 1621x701]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(u32, u32)>,
     #[command(flatten)]
     pub device: DeviceArgs,
     /// Plan for what every Vulkan 1.2 device has, whatever there is here
@@ -72,10 +75,10 @@ struct Report<'a> {
 }
 
 pub fn run(args: &PlanArgs) -> Result<()> {
-    let scene = scene_named(&args.scene)?;
+    let Reading { scene, size, .. } = args.reading.read(&args.scene)?;
     let device = device(args)?;
     let limits = device.as_ref().map_or(Limits::PROMISED, limits_of);
-    let (width, height) = args.size;
+    let [width, height] = size_or_offered(args.size, size);
     let settings = RenderSettings {
         algorithm: args.algorithm,
         precision: args.precision,

@@ -12,8 +12,8 @@ use serde::Serialize;
 
 use super::interrupt::Listener;
 use super::options::{parse_depth, parse_error, parse_samples, parse_scale, parse_size};
-use super::streams::{PictureFormat, STREAM, StreamArgs};
-use super::{DeviceArgs, ValidationArgs, print_line, progress_bar, refuse_messages, scene_named};
+use super::streams::{PictureFormat, STANDARD_INPUT, STREAM, StreamArgs, read_scene};
+use super::{DeviceArgs, ReadingArgs, ValidationArgs, print_line, progress_bar, refuse_messages, size_or_offered};
 use crate::algorithm::{Algorithm, Precision};
 use crate::frame::Frame;
 use crate::gpu::{Device, DeviceDescription, Messages};
@@ -21,6 +21,7 @@ use crate::measure::median;
 use crate::plan::Plan;
 use crate::reference::{self, RenderError};
 use crate::scene::Scene;
+use crate::scene::format::{FORMATS, Reading};
 use crate::settings::sampling::Sampling;
 use crate::settings::{Contradiction, RenderSettings, Shading};
 use crate::tracer::{ErrorEstimate, Progressive, Settings, Tracer, TracerError, limits_of};
@@ -31,16 +32,18 @@ use ssr::{SsrArgs, SsrShadows};
 /// Render a scene into a PNG (display values) or EXR (linear values) file
 #[derive(Debug, Clone, Args)]
 pub struct RenderArgs {
-    /// A scene file (.toml, .json, .zscene), a name of `zerkalo gallery`, or - for standard input
+    /// A scene file (.toml, .json, .zscene, .nff), a name of `zerkalo gallery`, or - for standard input
     pub scene: String,
+    #[command(flatten)]
+    pub reading: ReadingArgs,
     #[command(flatten)]
     pub streams: StreamArgs,
     /// The picture to write: .png or .exr, or - for standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Pixels, each side 1 to 16384
-    #[arg(long, value_name = "WxH", default_value = "1621x701", value_parser = parse_size)]
-    pub size: (u32, u32),
+    /// Pixels, each side 1 to 16384 [default: what the scene's file says, else 1621x701]
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<(u32, u32)>,
     /// Which algorithm draws
     #[arg(long, alias = "kernel", value_enum, default_value_t)]
     pub algorithm: Algorithm,
@@ -143,15 +146,19 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     } else {
         Frame::check_output_path(&args.output)?;
     }
-    let scene =
-        if is_from_stream { args.streams.format.unwrap_or_default().read_scene()? } else { scene_named(&args.scene)? };
+    let Reading { scene, size, .. } = if is_from_stream {
+        args.reading.told(STANDARD_INPUT, read_scene(args.streams.format.unwrap_or(&FORMATS[0]))?)?
+    } else {
+        args.reading.read(&args.scene)?
+    };
+    let size = size_or_offered(args.size, size);
     let setting = setting(args)?;
     let algorithm = setting.map_or(args.algorithm, |setting| setting.algorithm);
     args.paths.check(algorithm, args.repeat)?;
     args.ssr.check(algorithm)?;
     let rendered = match setting {
-        Some(setting) => on_device(args, &setting.shading.applied(&scene), &setting)?,
-        None => on_cpu(args, args.shading.applied(&scene).into_owned())?,
+        Some(setting) => on_device(args, size, &setting.shading.applied(&scene), &setting)?,
+        None => on_cpu(args, size, args.shading.applied(&scene).into_owned())?,
     };
     let told = told(args, &rendered)?;
     if is_into_stream {
@@ -190,7 +197,7 @@ fn setting(args: &RenderArgs) -> Result<Option<RenderSettings>> {
     Ok(args.algorithm.description().is_on_device().then_some(setting))
 }
 
-fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Result<Rendered> {
+fn on_device(args: &RenderArgs, size: [u32; 2], scene: &Scene, setting: &RenderSettings) -> Result<Rendered> {
     // From before the driver's threads compile anything until they are gone: a program that ends in their midst may
     // crash.
     let listener = Listener::start();
@@ -198,9 +205,8 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Resu
     let DeviceDescription { name, driver, .. } = device.description().clone();
     let messages = device.messages().clone();
 
-    let (width, height) = args.size;
     let limits = limits_of(device.description());
-    let plan = Plan::for_scene(scene, setting, [width, height], &limits)?.with_f32_tried(scene);
+    let plan = Plan::for_scene(scene, setting, size, &limits)?.with_f32_tried(scene);
     let (mut settings, error_bound, warning) = (Settings::planned(&plan), plan.bounds.total(), plan.warning());
     let note = plan.screen_space_line().map(|line| format!("{} {}: {}", line.what, line.choice, line.why));
     settings.approximations.shadows &= args.ssr.ssr_shadows == SsrShadows::Rays;
@@ -246,14 +252,13 @@ fn on_device(args: &RenderArgs, scene: &Scene, setting: &RenderSettings) -> Resu
     })
 }
 
-fn on_cpu(args: &RenderArgs, mut scene: Scene) -> Result<Rendered> {
+fn on_cpu(args: &RenderArgs, [width, height]: [u32; 2], mut scene: Scene) -> Result<Rendered> {
     for (option, is_given) in [("--repeat", args.repeat.is_some()), ("--validate", args.validation.is_on())] {
         if is_given {
             return Err(TracerError::Refused(format!("{option} is for kernels on a Vulkan device")).into());
         }
     }
     scene.max_depth = args.max_depth.unwrap_or(scene.max_depth);
-    let (width, height) = args.size;
     let mut frame = Frame::new(width, height)?;
     let bar = progress_bar(u64::from(height));
     let listener = Listener::start();
@@ -327,7 +332,7 @@ fn told(args: &RenderArgs, rendered: &Rendered) -> Result<String> {
     // Of path tracing each is a part of the picture.
     let gpu_time_ns =
         if is_statistical && !samples_ns.is_empty() { Some(samples_ns.iter().sum()) } else { median(samples_ns) };
-    let (width, height) = args.size;
+    let [width, height] = [rendered.frame.width(), rendered.frame.height()];
     if args.json {
         return Ok(serde_json::to_string(&Report {
             width,

@@ -3,21 +3,26 @@
 use std::io::{self, IsTerminal, Write};
 
 use anyhow::{Context, Result};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 
 use super::options::Contradictory;
 use crate::frame::{FileFormat, Frame};
-use crate::scene::{Scene, SceneError};
+use crate::scene::SceneError;
+use crate::scene::format::{FORMATS, Reading, SceneFormat};
 
 /// In place of a file's name.
 pub const STREAM: &str = "-";
+
+/// In messages, in place of a file's name.
+pub const STANDARD_INPUT: &str = "standard input";
 
 /// What a stream has no name's ending for.
 #[derive(Debug, Clone, Copy, Args)]
 pub struct StreamArgs {
     /// What a scene from standard input, `-`, is written in [default: toml]
-    #[arg(long, value_enum, value_name = "FORMAT")]
-    pub format: Option<SceneFormat>,
+    #[arg(long, value_parser = format_parser(), value_name = "FORMAT")]
+    pub format: Option<&'static SceneFormat>,
     /// What a picture to standard output, `-o -`, is written in [default: png]
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub output_format: Option<PictureFormat>,
@@ -38,14 +43,6 @@ impl StreamArgs {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
-pub enum SceneFormat {
-    #[default]
-    Toml,
-    Json,
-    Zscene,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub enum PictureFormat {
     /// Display values
     #[default]
@@ -54,20 +51,20 @@ pub enum PictureFormat {
     Exr,
 }
 
-impl SceneFormat {
-    /// # Errors
-    /// Standard input has no scene of this format.
-    pub fn read_scene(self) -> Result<Scene, SceneError> {
-        let extension = match self {
-            Self::Toml => "toml",
-            Self::Json => "json",
-            Self::Zscene => "zscene",
-        };
-        Scene::from_reader(&mut io::stdin().lock(), extension).map_err(|mut error| {
-            error.path = Some("standard input".into());
-            error
-        })
-    }
+/// # Errors
+/// Standard input has no scene of this format.
+pub fn read_scene(format: &SceneFormat) -> Result<Reading, SceneError> {
+    format.read_stream(&mut io::stdin().lock()).map_err(|mut error| {
+        error.path = Some(STANDARD_INPUT.into());
+        error
+    })
+}
+
+/// By extensions.
+fn format_parser() -> impl TypedValueParser<Value = &'static SceneFormat> {
+    let values = FORMATS.iter().map(|format| PossibleValue::new(format.extension).help(format.about));
+    PossibleValuesParser::new(values)
+        .try_map(|extension| FORMATS.iter().find(|format| format.extension == extension).ok_or("no such format"))
 }
 
 impl PictureFormat {

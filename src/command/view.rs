@@ -6,7 +6,7 @@ use anyhow::Result;
 use clap::Args;
 
 use super::interrupt::Listener;
-use super::{DeviceArgs, ValidationArgs, refuse_messages, scene_named};
+use super::{DeviceArgs, ReadingArgs, ValidationArgs, refuse_messages};
 use crate::scene::gallery;
 use crate::settings::{RenderSettings, Shading};
 use crate::tracer::TracerError;
@@ -24,9 +24,11 @@ const COURSE_START: &str = "start";
 /// otherwise.
 #[derive(Debug, Clone, Args)]
 pub struct ViewArgs {
-    /// A scene file (.toml, .json, .zscene) or a name of `zerkalo gallery`, such as `start`
+    /// A scene file (.toml, .json, .zscene, .nff) or a name of `zerkalo gallery`, such as `start`
     #[arg(default_value = "showcase")]
     pub scene: String,
+    #[command(flatten)]
+    pub reading: ReadingArgs,
     /// Draw as a file of `zerkalo trade --save-settings` says; the panel offers the kernels, too
     #[arg(long, value_name = "FILE")]
     pub settings: Option<PathBuf>,
@@ -56,7 +58,7 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         let reason = "--watch needs a debug build, which has the shader compiler in it: cargo run -- view --watch";
         return Err(TracerError::Refused(reason.to_owned()).into());
     }
-    let scene = scene_named(&args.scene)?;
+    let scene = args.reading.read(&args.scene)?.scene;
     let setting = args.settings.as_deref().map(RenderSettings::load).transpose()?;
     let is_file = !gallery::has(&args.scene);
     let document = Document::new(scene, is_file.then(|| PathBuf::from(&args.scene)));

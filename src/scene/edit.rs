@@ -75,6 +75,20 @@ pub fn world_from_box(rotation_degrees: DVec3) -> DMat3 {
     rotation_x(-rotation_degrees.x) * rotation_y(-rotation_degrees.y) * rotation_z(-rotation_degrees.z)
 }
 
+/// The `rotation_degrees` of a box from its local→world rotation: what [`world_from_box`] makes that of, to rounding.
+pub(crate) fn rotation_of(world_from_box: &DMat3) -> DVec3 {
+    let [x, y, z] = [world_from_box.x_axis, world_from_box.y_axis, world_from_box.z_axis];
+    // The first row of Rx(α)·Ry(β)·Rz(γ) is (cosβ·cosγ, −cosβ·sinγ, sinβ).
+    let beta = z.x.atan2(x.x.hypot(y.x));
+    let gamma = (-y.x).atan2(x.x);
+    // With Rz(γ) taken off, the second column is (0, cosα, sinα). Near β = ±90°, where γ is mostly rounding, that makes
+    // up for it: there both turn about one axis.
+    let (sin, cos) = gamma.sin_cos();
+    let second = x * sin + y * cos;
+    let alpha = second.z.atan2(second.y);
+    -DVec3::new(alpha, beta, gamma).map(f64::to_degrees)
+}
+
 /// From a cylinder's midpoint to its second end.
 fn half_axis(ends: &[DVec3; 2]) -> DVec3 {
     (ends[1] - ends[0]) * 0.5

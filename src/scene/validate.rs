@@ -115,7 +115,7 @@ pub(super) fn check_primitive_count(count: usize) -> Result<(), Violation<'stati
     Field::of(Place::Scene).rule("primitives", count <= PRIMITIVE_LIMIT, "at most 16777216 are allowed", shown)
 }
 
-fn check_camera(camera: &Camera) -> Result<(), Violation<'_>> {
+pub(super) fn check_camera(camera: &Camera) -> Result<(), Violation<'_>> {
     let field = Field::of(Place::Camera);
     field.any_vector("position", camera.position)?;
     field.vector("direction", camera.direction, NOT_ZERO, |v| v != DVec3::ZERO)?;
@@ -127,7 +127,7 @@ fn check_camera(camera: &Camera) -> Result<(), Violation<'_>> {
     })
 }
 
-fn check_light(index: usize, light: &Light) -> Result<(), Violation<'_>> {
+pub(super) fn check_light(index: usize, light: &Light) -> Result<(), Violation<'_>> {
     let field = Field::of(Place::Light(index));
     field.any_vector("position", light.position)?;
     field.vector("intensity", light.intensity, NOT_NEGATIVE, |v| v.min_element() >= 0.0)?;
@@ -138,7 +138,7 @@ fn check_light(index: usize, light: &Light) -> Result<(), Violation<'_>> {
     }
 }
 
-fn check_primitive(index: usize, primitive: &Primitive) -> Result<(), Violation<'_>> {
+pub(super) fn check_primitive(index: usize, primitive: &Primitive) -> Result<(), Violation<'_>> {
     let field = Field::of(Place::of_primitive(index, primitive));
     match &primitive.solid {
         Solid::Sphere { center, radius } => {

@@ -4,6 +4,7 @@ use std::mem;
 use std::path::{Path, PathBuf};
 
 use super::history::{Field, History, Snapshot, is_same_work};
+use crate::scene::format::SceneFormat;
 use crate::scene::{Camera, Primitive, Scene, SceneError};
 
 /// Its scene is always valid and its selection always a primitive of the scene.
@@ -18,13 +19,15 @@ pub struct Document {
 }
 
 impl Document {
-    /// A scene as it was loaded from `path` or made without a file; it must be valid.
+    /// A scene as it was loaded from `path` or made without a file; it must be valid. A file of a format that is read
+    /// only is not the document's: it could not be saved there.
     pub fn new(scene: Scene, path: Option<PathBuf>) -> Self {
         Self { saved: Some(scene.clone()), ..Self::recovered(scene, path) }
     }
 
     /// A valid scene that was never saved to `path` as it is.
     pub fn recovered(scene: Scene, path: Option<PathBuf>) -> Self {
+        let path = path.filter(|path| SceneFormat::of(path).map_or(true, SceneFormat::is_written));
         let path = path.map(|path| absolute(&path));
         Self {
             opening_camera: scene.camera.clone(),
@@ -87,7 +90,7 @@ impl Document {
         !self.saved.as_ref().is_some_and(|saved| is_same_work(saved, self.scene()))
     }
 
-    /// Writes the scene, with the camera as it stands, to a `.toml`, `.json` or `.zscene` file, which is the document's
+    /// Writes the scene, with the camera as it stands, to a file of one of the formats that are written, which is the document's
     /// from then on.
     ///
     /// # Errors

@@ -12,6 +12,7 @@ use super::document::Document;
 use super::edits::Refusal;
 use super::preferences::Preferences;
 use crate::frame::FileFormat;
+use crate::scene::format::{Note, Reading};
 use crate::scene::{Scene, gallery};
 use crate::settings::sampling::Sampling;
 use crate::settings::{RenderSettings, Shading};
@@ -260,8 +261,14 @@ impl State {
 
     fn open_file(&mut self, path: PathBuf) {
         self.close_dialog();
-        match Scene::load(&path) {
-            Ok(scene) => self.document = Document::new(scene, Some(path)),
+        match Scene::read(&path) {
+            Ok(Reading { scene, notes, .. }) => {
+                self.document = Document::new(scene, Some(path));
+                if !notes.is_empty() {
+                    let lines: Vec<_> = notes.iter().map(Note::to_string).collect();
+                    self.say(Message::ReadOtherwise(lines.join("\n")));
+                }
+            }
             Err(error) => self.say(Message::failure(error)),
         }
     }

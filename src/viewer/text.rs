@@ -220,6 +220,8 @@ impl GroupWords {
 #[derive(Debug)]
 pub struct DialogWords {
     pub(super) error: &'static str,
+    /// Over what a file of another program was read as.
+    pub(super) read_otherwise: &'static str,
     pub(super) ok: &'static str,
     pub(super) cancel: &'static str,
     pub(super) no_primitives: &'static str,
@@ -251,7 +253,9 @@ pub struct DialogWords {
     pub(super) file_name_missing: &'static str,
     pub(super) no_such_file: &'static str,
     pub(super) no_such_folder: &'static str,
+    /// Before the extensions.
     pub(super) scene_extension: &'static str,
+    /// Before the extensions.
     pub(super) picture_extension: &'static str,
     /// Before what the system said.
     pub(super) folder_unreadable: &'static str,
@@ -303,7 +307,14 @@ impl Words {
             Message::NothingSelected => self.dialogs.nothing_selected,
             Message::TooManyPrimitives => self.dialogs.too_many_primitives,
             Message::SceneChanged => self.dialogs.scene_changed,
-            Message::Failure(what) => what,
+            Message::ReadOtherwise(what) | Message::Failure(what) => what,
+        }
+    }
+
+    pub(super) fn message_title(&self, message: &Message) -> &'static str {
+        match message {
+            Message::ReadOtherwise(_) => self.dialogs.read_otherwise,
+            _ => self.dialogs.error,
         }
     }
 

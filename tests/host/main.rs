@@ -23,4 +23,5 @@ mod scene_binary;
 mod scene_broken_files;
 mod scene_edits;
 mod scene_gallery;
+mod scene_nff;
 mod scene_round_trips;

@@ -64,7 +64,7 @@ fn the_open_dialog_walks_through_folders_and_says_what_is_wrong() {
     assert!(is_there(&window, "Type a file name."));
     for (name, fault) in [
         ("missing.toml", "There is no such file."),
-        ("missing.txt", "The name of a scene file must end in .toml, .json or .zscene."),
+        ("missing.txt", "The name of a scene file must end in one of: .toml, .json, .zscene, .nff."),
     ] {
         retype(&mut window, "File name", folder.path().join(name).to_str().unwrap());
         click(&mut window, "Open");

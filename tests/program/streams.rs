@@ -122,3 +122,39 @@ fn where_f32_is_too_coarse_f64_draws_and_f32_is_warned_of() {
         assert!(!run.stdout.contains("warning"), "{run:?}");
     }
 }
+
+#[test]
+fn a_file_of_another_program_is_drawn_at_its_size_and_what_it_loses_is_told_or_refused() {
+    let place = Place::new();
+    let sample = |name: &str| format!("{}/tests/scenes/nff/{name}.nff", env!("CARGO_MANIFEST_DIR"));
+    std::fs::write(
+        place.path("ball.nff"),
+        "v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 resolution 48 32 b 0 0 1 f 1 1 1 1 0 9 0 1 l 0 9 9 1 1 1 s 0 0 0 1",
+    )
+    .unwrap();
+    let told = place.json(&["render", "ball.nff", "-o", "ball.exr", "--json", "--strict"]);
+    assert_eq!((&told["width"], &told["height"]), (&48.into(), &32.into()));
+    assert_eq!(place.json(&["plan", "ball.nff", "--no-device", "--json"])["width"], 48);
+    place.run_well(&["convert", "ball.nff", "ball.toml", "--strict"]);
+    place.run_well(&["render", "ball.toml", "-o", "same.exr", "--size", "48x32"]);
+    assert_eq!(std::fs::read(place.path("ball.exr")).unwrap(), std::fs::read(place.path("same.exr")).unwrap());
+
+    let tree = sample("tree-3");
+    let lost = format!("{tree}:23: a truncated cone is left out (15 times, here first)");
+    let run = place.run(&["convert", &tree, "tree.zscene"]);
+    let told = ["note: ", "note: ", "warning: "].iter().zip(run.stderr.lines());
+    assert!(run.code == Some(0) && told.clone().count() == 3 && run.stderr.lines().count() == 3, "{}", run.stderr);
+    assert!(told.clone().all(|(word, line)| line.starts_with(word)), "{}", run.stderr);
+    assert_eq!(run.stderr.lines().last(), Some(format!("warning: {lost}").as_str()));
+    place.assert_refused(&["convert", &tree, "strict.zscene", "--strict"], 2, &[&lost]);
+    place.assert_refused(&["convert", "four", "four.nff"], 2, &["NFF is read only"]);
+    assert!(!place.path("strict.zscene").exists() && !place.path("four.nff").exists());
+
+    let arguments = ["render", "-", "-o", "piped.exr", "--format", "nff", "--strict"];
+    let (code, _, said) = piped(&place, &arguments, &std::fs::read(place.path("ball.nff")).unwrap());
+    assert_eq!((code, said.as_str()), (Some(0), ""));
+    assert_eq!(std::fs::read(place.path("ball.exr")).unwrap(), std::fs::read(place.path("piped.exr")).unwrap());
+    let (code, _, said) =
+        piped(&place, &["render", "-", "-o", "lost.exr", "--format", "nff", "--strict"], b"c 0 0 0 1 1 1 1 2");
+    assert!(code == Some(2) && said.contains("standard input:1: a truncated cone"), "{said}");
+}

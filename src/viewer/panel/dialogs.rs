@@ -4,7 +4,7 @@ use egui::{Context, Id, Key, Modal, Modifiers, Ui};
 
 use super::file_dialog::{FileAnswer, FileDialog};
 use crate::viewer::action::{Action, UnsavedAnswer};
-use crate::viewer::state::{Dialog, FilePurpose, State};
+use crate::viewer::state::{Dialog, FilePurpose, Message, State};
 use crate::viewer::text::Words;
 
 /// The file dialog while it is open, and where the last one was.
@@ -21,7 +21,7 @@ impl Dialogs {
         let dialogs = &words.dialogs;
         let answer = match &state.dialog {
             None => None,
-            Some(Dialog::Message(message)) => show_message(ctx, words, words.message(message)),
+            Some(Dialog::Message(message)) => show_message(ctx, words, message),
             Some(Dialog::Unsaved(_)) => {
                 let answers = [
                     (dialogs.save, UnsavedAnswer::Save),
@@ -66,8 +66,9 @@ impl Dialogs {
     }
 }
 
-fn show_message(ctx: &Context, words: &Words, message: &str) -> Option<Action> {
-    let (answer, is_dismissed) = ask(ctx, words.dialogs.error, message, [(words.dialogs.ok, ())]);
+fn show_message(ctx: &Context, words: &Words, message: &Message) -> Option<Action> {
+    let (title, text) = (words.message_title(message), words.message(message));
+    let (answer, is_dismissed) = ask(ctx, title, text, [(words.dialogs.ok, ())]);
     let is_entered = ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
     (answer.is_some() || is_dismissed || is_entered).then_some(Action::CloseDialog)
 }

@@ -6,6 +6,7 @@ use egui::{Key, ScrollArea, TextEdit, Ui};
 
 use super::fields::{name_widget, short_button};
 use super::folder::{Listing, has_extension};
+use crate::scene::format::FORMATS;
 use crate::viewer::state::FilePurpose;
 use crate::viewer::text::Words;
 
@@ -32,13 +33,13 @@ pub enum FileAnswer {
     Cancel,
 }
 
-const SCENE_EXTENSIONS: &[&str] = &["toml", "json", "zscene"];
-const PICTURE_EXTENSIONS: &[&str] = &["png", "exr"];
-
-fn extensions(purpose: FilePurpose) -> &'static [&'static str] {
+fn extensions(purpose: FilePurpose) -> Vec<&'static str> {
     match purpose {
-        FilePurpose::Open | FilePurpose::Save => SCENE_EXTENSIONS,
-        FilePurpose::Screenshot => PICTURE_EXTENSIONS,
+        FilePurpose::Open => FORMATS.iter().map(|format| format.extension).collect(),
+        FilePurpose::Save => {
+            FORMATS.iter().filter(|format| format.is_written()).map(|format| format.extension).collect()
+        }
+        FilePurpose::Screenshot => vec!["png", "exr"],
     }
 }
 
@@ -183,18 +184,19 @@ impl FileDialog {
         let path = purpose.completed(path);
         let is_saving = purpose != FilePurpose::Open;
         self.fault = if name.is_empty() {
-            Some(dialogs.file_name_missing)
-        } else if !has_extension(&path, extensions) {
+            Some(dialogs.file_name_missing.to_owned())
+        } else if !has_extension(&path, &extensions) {
             let is_picture = purpose == FilePurpose::Screenshot;
-            Some(if is_picture { dialogs.picture_extension } else { dialogs.scene_extension })
+            let sentence = if is_picture { dialogs.picture_extension } else { dialogs.scene_extension };
+            let named: Vec<_> = extensions.iter().map(|extension| format!(".{extension}")).collect();
+            Some(format!("{sentence} {}.", named.join(", ")))
         } else if !is_saving && !path.exists() {
-            Some(dialogs.no_such_file)
+            Some(dialogs.no_such_file.to_owned())
         } else if !path.parent().is_some_and(Path::is_dir) {
-            Some(dialogs.no_such_folder)
+            Some(dialogs.no_such_folder.to_owned())
         } else {
             None
-        }
-        .map(str::to_owned);
+        };
         if self.fault.is_some() {
             return None;
         }
@@ -220,8 +222,8 @@ impl FileDialog {
     }
 
     fn list(&mut self, words: &Words) {
-        let extensions = self.purpose.map_or(SCENE_EXTENSIONS, extensions);
-        let listing = Listing::read(&self.folder, extensions);
+        let extensions = extensions(self.purpose.unwrap_or(FilePurpose::Open));
+        let listing = Listing::read(&self.folder, &extensions);
         self.fault = listing.as_ref().err().map(|error| format!("{} {error}", words.dialogs.folder_unreadable));
         self.listing = listing.unwrap_or_default();
     }

@@ -29,6 +29,8 @@ pub enum Message {
     TooManyPrimitives,
     /// A screenshot's, before its picture was whole.
     SceneChanged,
+    /// What was lost of a file that was opened, and what was assumed; lines.
+    ReadOtherwise(String),
     /// In the words of what failed, such as a scene file's fault with its line.
     Failure(String),
 }

@@ -121,6 +121,7 @@ pub(super) static WORDS: Words = Words {
     },
     dialogs: DialogWords {
         error: "Error",
+        read_otherwise: "The file was not taken literally",
         ok: "OK",
         cancel: "Cancel",
         no_primitives: "No primitive has been added.",
@@ -146,8 +147,8 @@ pub(super) static WORDS: Words = Words {
         file_name_missing: "Type a file name.",
         no_such_file: "There is no such file.",
         no_such_folder: "There is no such folder.",
-        scene_extension: "The name of a scene file must end in .toml, .json or .zscene.",
-        picture_extension: "The name of a screenshot must end in .png or .exr.",
+        scene_extension: "The name of a scene file must end in one of:",
+        picture_extension: "The name of a screenshot must end in one of:",
         folder_unreadable: "The folder cannot be read:",
         replace_question: "There is such a file already. Replace it?",
         replace: "Replace",

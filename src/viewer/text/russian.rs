@@ -125,6 +125,7 @@ pub(super) static WORDS: Words = Words {
     },
     dialogs: DialogWords {
         error: "Ошибка",
+        read_otherwise: "Файл прочитан не буквально",
         ok: "OK",
         cancel: "Отмена",
         no_primitives: "Не добавлено ни одного примитива.",
@@ -150,8 +151,8 @@ pub(super) static WORDS: Words = Words {
         file_name_missing: "Введите имя файла.",
         no_such_file: "Такого файла нет.",
         no_such_folder: "Такой папки нет.",
-        scene_extension: "Имя файла сцены должно оканчиваться на .toml, .json или .zscene.",
-        picture_extension: "Имя файла снимка должно оканчиваться на .png или .exr.",
+        scene_extension: "Имя файла сцены должно оканчиваться на одно из:",
+        picture_extension: "Имя файла снимка должно оканчиваться на одно из:",
         folder_unreadable: "Папка не читается:",
         replace_question: "Такой файл уже есть. Заменить его?",
         replace: "Заменить",

@@ -221,3 +221,24 @@ fn recovered_work_is_taken_up_when_wanted() {
     state.apply(Action::AnswerRecover(true));
     assert!(!state.document.has_unsaved_changes());
 }
+
+#[test]
+fn a_file_that_is_read_only_is_opened_with_what_is_lost_and_saved_elsewhere() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("ball.nff");
+    let text = "v from 0 0 5 at 0 0 0 up 0 1 0 angle 45 resolution 64 64 b 0 0 0 s 0 0 0 1 c 0 0 0 1 0 0 1 2\n";
+    std::fs::write(&path, text).unwrap();
+    let mut state = start();
+    assert_eq!(state.apply(Action::OpenFile(path)), []);
+    let told = "line 1: an object stands before the first f: it is white and diffuse\n\
+                line 1: a truncated cone is left out";
+    assert_eq!(state.dialog, Some(Dialog::Message(Message::ReadOtherwise(told.to_owned()))));
+    assert_eq!((state.document.scene().primitives.len(), state.document.path()), (1, None));
+    state.apply(Action::CloseDialog);
+    state.apply(Action::Save);
+    assert_eq!(state.dialog, Some(Dialog::File(FilePurpose::Save)));
+    state.apply(Action::SaveTo(folder.path().join("ball.nff")));
+    assert!(
+        matches!(&state.dialog, Some(Dialog::Message(Message::Failure(what))) if what.contains("NFF is read only"))
+    );
+}

@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 
-use super::Format;
+use super::markup::Markup;
 use crate::scene::text::{number, quoted, vector};
 use crate::scene::{Camera, Light, Material, Primitive, Scene, Solid};
 
@@ -14,19 +14,19 @@ impl Scene {
         let default = Scene::default();
         let mut lines = Vec::new();
         let mut line = |key: &str, value: &str| lines.push(format!("{key} = {value}\n"));
-        for (key, value) in Format::Toml.fields(scene_fields(self), &scene_fields(&default)) {
+        for (key, value) in Markup::Toml.fields(scene_fields(self), &scene_fields(&default)) {
             line(key, &value);
         }
         // Dotted keys, for a [camera] header would swallow the arrays behind it.
-        for (key, value) in Format::Toml.fields(camera_fields(&self.camera), &camera_fields(&default.camera)) {
+        for (key, value) in Markup::Toml.fields(camera_fields(&self.camera), &camera_fields(&default.camera)) {
             line(&format!("camera.{key}"), &value);
         }
-        let lights = rows(&self.lights, |light| Format::Toml.light(light));
-        if lights != rows(&default.lights, |light| Format::Toml.light(light)) {
+        let lights = rows(&self.lights, |light| Markup::Toml.light(light));
+        if lights != rows(&default.lights, |light| Markup::Toml.light(light)) {
             line("lights", &lights);
         }
         if !self.primitives.is_empty() {
-            line("primitives", &rows(&self.primitives, |primitive| Format::Toml.primitive(primitive)));
+            line("primitives", &rows(&self.primitives, |primitive| Markup::Toml.primitive(primitive)));
         }
         lines.concat()
     }
@@ -34,9 +34,9 @@ impl Scene {
     /// The scene as JSON; reads back to the bit if the scene is valid.
     pub fn to_json(&self) -> String {
         let mut fields = scene_fields(self);
-        fields.push(("camera", Format::Json.table(&camera_fields(&self.camera))));
-        fields.push(("lights", rows(&self.lights, |light| Format::Json.light(light))));
-        fields.push(("primitives", rows(&self.primitives, |primitive| Format::Json.primitive(primitive))));
+        fields.push(("camera", Markup::Json.table(&camera_fields(&self.camera))));
+        fields.push(("lights", rows(&self.lights, |light| Markup::Json.light(light))));
+        fields.push(("primitives", rows(&self.primitives, |primitive| Markup::Json.primitive(primitive))));
         let lines: Vec<String> = fields.iter().map(|(key, value)| format!("\"{key}\": {value}")).collect();
         format!("{{\n{}\n}}\n", lines.join(",\n"))
     }
@@ -103,7 +103,7 @@ fn solid_fields(solid: &Solid) -> Vec<Field> {
     }
 }
 
-impl Format {
+impl Markup {
     fn light(self, light: &Light) -> String {
         let position = ("position", vector(light.position));
         let others = |light: &Light| {
