@@ -28,7 +28,7 @@ as_root() {
 debian_packages() {
     required=(build-essential libvulkan1)
     optional=(mesa-vulkan-drivers libx11-6 libx11-xcb1 libxcursor1 libxi6 libxkbcommon0 libxkbcommon-x11-0 libxcb-xkb1)
-    tests=(vulkan-validationlayers xvfb xauth xdotool imagemagick shellcheck chromium)
+    tests=(vulkan-validationlayers xvfb xauth xdotool imagemagick shellcheck chromium povray)
     shaderc=(libshaderc-dev glslang-dev spirv-tools)
     source=(cmake git python3 ninja-build)
 }
@@ -46,7 +46,7 @@ debian_install() { as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y
 fedora_packages() {
     required=(gcc gcc-c++ vulkan-loader)
     optional=(mesa-vulkan-drivers libX11 libX11-xcb libXcursor libXi libxkbcommon libxkbcommon-x11 libxcb)
-    tests=(vulkan-validation-layers xorg-x11-server-Xvfb xorg-x11-xauth xdotool ImageMagick ShellCheck chromium)
+    tests=(vulkan-validation-layers xorg-x11-server-Xvfb xorg-x11-xauth xdotool ImageMagick ShellCheck chromium povray)
     shaderc=(libshaderc-devel libshaderc-static glslang-devel spirv-tools-devel)
     source=(make cmake git python3 ninja-build)
 }
@@ -62,7 +62,7 @@ fedora_install() { as_root dnf install -y "$@"; }
 arch_packages() {
     required=(gcc vulkan-icd-loader)
     optional=(vulkan-swrast libx11 libxcursor libxi libxkbcommon libxkbcommon-x11 libxcb)
-    tests=(vulkan-validation-layers xorg-server-xvfb xorg-xauth xdotool imagemagick shellcheck chromium)
+    tests=(vulkan-validation-layers xorg-server-xvfb xorg-xauth xdotool imagemagick shellcheck chromium povray)
     shaderc=(shaderc)
     source=(make cmake git python ninja)
 }
@@ -101,7 +101,7 @@ name_what_is_needed() {
     warn "this system's package manager is unknown here. zerkalo needs: a C++ compiler; shaderc with its static or" \
         "shared library, or what builds it: make or ninja, cmake, git, python3; the Vulkan loader and a Vulkan 1.2" \
         "driver; libX11, libX11-xcb, libXcursor, libXi, libxkbcommon, libxkbcommon-x11; for the tests also the Vulkan" \
-        "validation layers, Xvfb, xauth, xdotool, ImageMagick, ShellCheck and Chromium"
+        "validation layers, Xvfb, xauth, xdotool, ImageMagick, ShellCheck, Chromium and POV-Ray"
 }
 
 need_tools() {

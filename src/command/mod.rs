@@ -11,6 +11,7 @@ mod options;
 mod plan;
 mod render;
 mod report;
+mod second_opinion;
 mod stability;
 mod streams;
 mod trade;
@@ -56,6 +57,7 @@ pub enum Command {
     Devices(devices::DevicesArgs),
     Gallery(gallery::GalleryArgs),
     Convert(convert::ConvertArgs),
+    SecondOpinion(second_opinion::SecondOpinionArgs),
 }
 
 impl Command {
@@ -75,6 +77,7 @@ impl Command {
             Self::Devices(args) => devices::run(args),
             Self::Gallery(args) => gallery::run(args),
             Self::Convert(args) => convert::run(args),
+            Self::SecondOpinion(args) => second_opinion::run(args),
         }
     }
 }

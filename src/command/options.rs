@@ -64,6 +64,12 @@ pub(super) fn parse_positive(text: &str) -> Result<f64, String> {
     value.ok_or_else(|| "it must be a number above 0 and up to 10^9, such as 0.002, 1/510 or 60".to_owned())
 }
 
+/// A factor of an exported file, which may be any that keeps numbers in range.
+pub fn parse_factor(text: &str) -> Result<f64, String> {
+    let factor = text.parse::<f64>().ok().filter(|factor| (1e-30..=1e30).contains(factor));
+    factor.ok_or("it must be a number from 1e-30 to 1e30".to_owned())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -62,7 +62,10 @@ pub fn read_scene(format: &SceneFormat) -> Result<Reading, SceneError> {
 
 /// By extensions.
 fn format_parser() -> impl TypedValueParser<Value = &'static SceneFormat> {
-    let values = FORMATS.iter().map(|format| PossibleValue::new(format.extension).help(format.about));
+    let values = FORMATS
+        .iter()
+        .filter(|format| format.is_read())
+        .map(|format| PossibleValue::new(format.extension).help(format.about));
     PossibleValuesParser::new(values)
         .try_map(|extension| FORMATS.iter().find(|format| format.extension == extension).ok_or("no such format"))
 }

@@ -15,6 +15,8 @@ pub struct Difference {
     pub smooth: usize,
     /// Pixels beside a pixel whose ray went another way, corners included.
     pub discontinuities: usize,
+    /// Pixels off discontinuities that differ by more than the tolerance.
+    pub differing_smooth: usize,
     /// Discontinuity pixels that differ by more than the tolerance.
     pub differing: usize,
     /// Pixels with NaN or infinity.
@@ -40,6 +42,7 @@ impl Difference {
                 difference.differing += usize::from(error > tolerance);
             } else {
                 difference.smooth += 1;
+                difference.differing_smooth += usize::from(error > tolerance);
                 difference.largest = difference.largest.max(error);
             }
         }
@@ -53,6 +56,7 @@ impl Difference {
             smooth: self.smooth + other.smooth,
             discontinuities: self.discontinuities + other.discontinuities,
             differing: self.differing + other.differing,
+            differing_smooth: self.differing_smooth + other.differing_smooth,
             not_finite: self.not_finite + other.not_finite,
             solid: self.solid + other.solid,
         }

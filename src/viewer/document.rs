@@ -91,12 +91,15 @@ impl Document {
     }
 
     /// Writes the scene, with the camera as it stands, to a file of one of the formats that are written, which is the document's
-    /// from then on.
+    /// from then on, unless it is for other programs to read.
     ///
     /// # Errors
     /// Those of [`Scene::save`]; the document and the file stay as they were.
     pub fn save_to(&mut self, path: &Path) -> Result<(), SceneError> {
         self.scene().save(path)?;
+        if !SceneFormat::of(path).is_ok_and(SceneFormat::is_read) {
+            return Ok(());
+        }
         self.saved = Some(self.scene().clone());
         self.path = Some(absolute(path));
         Ok(())

@@ -14,6 +14,7 @@ mod compile;
 mod fps;
 mod paths;
 mod report;
+mod second_opinion;
 mod setup;
 mod ssr;
 mod streams;

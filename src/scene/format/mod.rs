@@ -1,5 +1,5 @@
 //! Scene files: [`FORMATS`] has a row for each kind. TOML for people and JSON for programs share one decoder, `.zscene`
-//! has in bytes what is too large for text, and NFF is read as other programs write it.
+//! has in bytes what is too large for text; NFF is read as other programs write it, and POV-Ray's is written for it to read.
 //! One data model, one set of rules.
 
 mod binary;
@@ -7,6 +7,7 @@ mod decode;
 mod markup;
 mod nff;
 mod note;
+mod povray;
 mod tree;
 mod write;
 
@@ -16,11 +17,14 @@ use std::io::{self, Read, Write};
 use std::path::Path;
 
 pub use self::note::{Note, NoteKind};
+pub(crate) use self::povray::exposure_below;
 
 use self::markup::Markup;
 use super::error::SceneErrorCause;
 use super::{Scene, SceneError};
 use crate::whole_file::WholeFile;
+
+type ReadFormat = fn(&mut dyn Read) -> Result<Reading, SceneError>;
 
 /// A row of [`FORMATS`].
 #[derive(Debug)]
@@ -33,13 +37,14 @@ pub struct SceneFormat {
     pub about: &'static str,
     /// Largest file, bytes.
     largest: u64,
-    read: fn(&mut dyn Read) -> Result<Reading, SceneError>,
+    /// `None` where it is written only.
+    read: Option<ReadFormat>,
     /// `None` where it is read only.
-    write: Option<fn(&Scene) -> Vec<u8>>,
+    write: Option<fn(&Scene, &Export) -> Written>,
 }
 
 /// The kinds of scene file; a name's ending tells which one a file is. The first is that of a stream without a name.
-pub static FORMATS: [SceneFormat; 4] = [TOML, JSON, ZSCENE, NFF];
+pub static FORMATS: [SceneFormat; 5] = [TOML, JSON, ZSCENE, NFF, POV_RAY];
 
 // The sizes of text are about 120 thousand primitives in TOML and 500 thousand in JSON, which take 0.5 GB to read. The
 // worst that the parsers can be given in that many bytes makes them take 1.9 GB.
@@ -48,8 +53,8 @@ const TOML: SceneFormat = SceneFormat {
     extension: "toml",
     about: "for people",
     largest: 16 << 20,
-    read: |file| Markup::Toml.read(file),
-    write: Some(|scene| scene.to_toml().into_bytes()),
+    read: Some(|file| Markup::Toml.read(file)),
+    write: Some(|scene, _| Written::whole(scene.to_toml().into_bytes())),
 };
 
 const JSON: SceneFormat = SceneFormat {
@@ -57,8 +62,8 @@ const JSON: SceneFormat = SceneFormat {
     extension: "json",
     about: "for programs",
     largest: 64 << 20,
-    read: |file| Markup::Json.read(file),
-    write: Some(|scene| scene.to_json().into_bytes()),
+    read: Some(|file| Markup::Json.read(file)),
+    write: Some(|scene, _| Written::whole(scene.to_json().into_bytes())),
 };
 
 // Bytes are read into a scene of at most twice their size, and so many hold all the primitives that a scene may have.
@@ -67,13 +72,13 @@ const ZSCENE: SceneFormat = SceneFormat {
     extension: "zscene",
     about: "for a million solids",
     largest: 4 << 30,
-    read: |file| {
+    read: Some(|file| {
         let in_bytes = |Fault { offset, what }: Fault| SceneError::refused(format!("byte {offset}: {what}"));
         let scene = binary::decode(&read_all(file)?).map_err(in_bytes)?;
         scene.validate()?;
         Ok(scene.into())
-    },
-    write: Some(Scene::to_zscene),
+    }),
+    write: Some(|scene, _| Written::whole(scene.to_zscene())),
 };
 
 // Read word by word into a scene of about its size.
@@ -82,9 +87,48 @@ const NFF: SceneFormat = SceneFormat {
     extension: "nff",
     about: "of other programs, read only",
     largest: 4 << 30,
-    read: nff::read,
+    read: Some(nff::read),
     write: None,
 };
+
+const POV_RAY: SceneFormat = SceneFormat {
+    name: "POV-Ray",
+    extension: "pov",
+    about: "for POV-Ray 3.7, written only",
+    largest: 4 << 30,
+    read: None,
+    write: Some(povray::write),
+};
+
+/// What a format of another program has to be told besides the scene.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Export {
+    /// Pixels along x and y of the picture.
+    pub size: [u32; 2],
+    /// Times every intensity; `None`: the largest power of two, at most 1, that surely keeps the picture below 1.
+    pub exposure: Option<f64>,
+    /// Times every length; `None`: what the other program's tolerances are made for.
+    pub length_scale: Option<f64>,
+}
+
+impl Default for Export {
+    fn default() -> Self {
+        Self { size: [1621, 701], exposure: None, length_scale: None }
+    }
+}
+
+/// A file's content.
+struct Written {
+    bytes: Vec<u8>,
+    /// What the file does not say of the scene, each in one line.
+    losses: Vec<String>,
+}
+
+impl Written {
+    fn whole(bytes: Vec<u8>) -> Self {
+        Self { bytes, losses: Vec::new() }
+    }
+}
 
 /// What a file holds.
 #[derive(Debug, Clone, PartialEq)]
@@ -156,6 +200,11 @@ impl Scene {
 
     /// Writes a file of one of the [`FORMATS`] that are written, whole or not at all; an invalid scene is refused.
     pub fn save(&self, path: &Path) -> Result<(), SceneError> {
+        self.export(path, &Export::default()).map(drop)
+    }
+
+    /// The same; returns what the file does not say of the scene, each in one line.
+    pub fn export(&self, path: &Path, export: &Export) -> Result<Vec<String>, SceneError> {
         let in_file = |error: SceneError| SceneError { path: Some(path.to_owned()), ..error };
         let refused = |what| in_file(SceneError::refused(what));
         self.validate().map_err(in_file)?;
@@ -167,12 +216,13 @@ impl Scene {
                 Extensions(SceneFormat::is_written)
             ))
         })?;
-        let content = write(self);
-        format.check_size(content.len() as u64).map_err(refused)?;
-        write_whole(path, &content).map_err(|error| SceneError {
+        let Written { bytes, losses } = write(self, export);
+        format.check_size(bytes.len() as u64).map_err(refused)?;
+        write_whole(path, &bytes).map_err(|error| SceneError {
             cause: SceneErrorCause::Disk,
             ..refused(format!("could not be written: {error}"))
-        })
+        })?;
+        Ok(losses)
     }
 }
 
@@ -192,10 +242,19 @@ impl SceneFormat {
         self.write.is_some()
     }
 
+    /// Whether scenes are read from it, too.
+    pub fn is_read(&self) -> bool {
+        self.read.is_some()
+    }
+
     /// Reads a scene from a stream.
     pub fn read_stream(&self, stream: &mut dyn Read) -> Result<Reading, SceneError> {
+        let read = self.read.ok_or_else(|| {
+            let what = format!("{} is written only; a scene is read from {}", self.name, Extensions(Self::is_read));
+            SceneError::refused(what)
+        })?;
         let mut counted = Counted { inner: stream, bytes: 0, largest: self.largest };
-        let reading = (self.read)(&mut counted);
+        let reading = read(&mut counted);
         // What was read of one too large makes no scene, or not that which is there.
         self.check_size(counted.bytes).map_err(SceneError::refused)?;
         reading

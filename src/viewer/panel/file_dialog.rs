@@ -35,7 +35,7 @@ pub enum FileAnswer {
 
 fn extensions(purpose: FilePurpose) -> Vec<&'static str> {
     match purpose {
-        FilePurpose::Open => FORMATS.iter().map(|format| format.extension).collect(),
+        FilePurpose::Open => FORMATS.iter().filter(|format| format.is_read()).map(|format| format.extension).collect(),
         FilePurpose::Save => {
             FORMATS.iter().filter(|format| format.is_written()).map(|format| format.extension).collect()
         }
