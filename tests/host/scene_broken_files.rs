@@ -292,18 +292,26 @@ fn files_that_are_no_scene_files_are_refused_by_name() {
     assert_one_clear_line(Scene::load(&folder.join("a\nb.toml")), &["a\\nb.toml: could not be read"], "odd name");
     assert_one_clear_line(
         load(folder, "scene.yaml", b""),
-        &["scene.yaml: ", ".toml, .json, .zscene or .nff"],
+        &["scene.yaml: ", ".toml, .json, .zscene, .nff or .pov"],
         "wrong extension",
     );
-    assert_one_clear_line(load(folder, "scene", b""), &[".toml, .json, .zscene or .nff"], "no extension");
-    assert_one_clear_line(load(folder, ".toml", b""), &[".toml, .json, .zscene or .nff"], "nothing but an extension");
+    assert_one_clear_line(load(folder, "scene", b""), &[".toml, .json, .zscene, .nff or .pov"], "no extension");
+    assert_one_clear_line(
+        load(folder, ".toml", b""),
+        &[".toml, .json, .zscene, .nff or .pov"],
+        "nothing but an extension",
+    );
     assert_one_clear_line(load(folder, "empty.json", b""), &["empty.json:1: empty"], "empty JSON");
     assert_one_clear_line(load(folder, "latin.toml", b"# \xe9t\xe9"), &["is not UTF-8 text"], "Latin-1");
     assert_one_clear_line(load(folder, "wide.json", b"\xff\xfe{\0}\0"), &["is not UTF-8 text"], "UTF-16");
     let named = load(folder, "named.toml", b"\nmax_depth = 0");
     assert_one_clear_line(named, &["named.toml:2: max_depth = 0: must be"], "line");
     if cfg!(unix) {
-        assert_one_clear_line(Scene::load(Path::new("/dev/null")), &[".toml, .json, .zscene or .nff"], "a device");
+        assert_one_clear_line(
+            Scene::load(Path::new("/dev/null")),
+            &[".toml, .json, .zscene, .nff or .pov"],
+            "a device",
+        );
     }
 }
 

@@ -246,6 +246,8 @@ fn a_scene_is_not_written_as_nff() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("scene.nff");
     let error = Scene::default().save(&path).unwrap_err();
-    assert!(error.is_input_error() && error.what == "NFF is read only; a scene is written to .toml, .json or .zscene");
+    assert!(
+        error.is_input_error() && error.what == "NFF is read only; a scene is written to .toml, .json, .zscene or .pov"
+    );
     assert!(!path.exists());
 }

@@ -161,7 +161,7 @@ fn an_interrupt_keeps_what_is_measured() {
 fn write_scene(place: &Place, seed: u64) -> String {
     let mut scene = random_scene(seed);
     // Each depth is settings more, compiled one by one.
-    scene.max_depth = scene.max_depth.min(4);
+    scene.max_depth = scene.max_depth.min(2);
     scene.lights.iter_mut().for_each(|light| light.intensity = light.intensity.min(DVec3::ONE));
     let name = format!("random-{seed}.toml");
     scene.save(&place.path(&name)).unwrap();
