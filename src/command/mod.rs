@@ -4,6 +4,7 @@ mod algorithms;
 pub mod compare;
 mod convert;
 mod devices;
+mod drawing;
 mod fps;
 mod gallery;
 pub mod interrupt;

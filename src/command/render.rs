@@ -10,8 +10,8 @@ use anyhow::{Context, Result};
 use clap::Args;
 use serde::Serialize;
 
+use super::drawing::DrawingArgs;
 use super::interrupt::Listener;
-use super::options::{parse_depth, parse_error, parse_samples, parse_scale, parse_size};
 use super::streams::{PictureFormat, STANDARD_INPUT, STREAM, StreamArgs, read_scene};
 use super::{DeviceArgs, ReadingArgs, ValidationArgs, print_line, progress_bar, refuse_messages, size_or_offered};
 use crate::algorithm::{Algorithm, Precision};
@@ -22,8 +22,8 @@ use crate::plan::Plan;
 use crate::reference::{self, RenderError};
 use crate::scene::Scene;
 use crate::scene::format::{FORMATS, Reading};
+use crate::settings::RenderSettings;
 use crate::settings::sampling::Sampling;
-use crate::settings::{Contradiction, RenderSettings, Shading};
 use crate::tracer::{ErrorEstimate, Progressive, Settings, Tracer, TracerError, limits_of};
 use crate::validation::Remarked;
 use paths::PathArgs;
@@ -41,39 +41,12 @@ pub struct RenderArgs {
     /// The picture to write: .png or .exr, or - for standard output
     #[arg(short, long, value_name = "OUT")]
     pub output: PathBuf,
-    /// Pixels, each side 1 to 16384 [default: what the scene's file says, else 1621x701]
-    #[arg(long, value_name = "WxH", value_parser = parse_size)]
-    pub size: Option<(u32, u32)>,
-    /// Which algorithm draws
-    #[arg(long, alias = "kernel", value_enum, default_value_t)]
-    pub algorithm: Algorithm,
-    /// What whitted calculates in [default: f32, where the picture is right in it]
-    #[arg(long, value_enum)]
-    pub precision: Option<Precision>,
-    /// Generations of a ray, in place of the scene's
-    #[arg(long, value_name = "N", value_parser = parse_depth())]
-    pub max_depth: Option<u32>,
-    /// Largest change of any linear channel by what whitted or plain leaves out, such as 0.002 or 1/510;
-    /// 0 is exact
-    #[arg(long, value_name = "E", default_value = "0", value_parser = parse_error, allow_hyphen_values = true)]
-    pub error: f64,
-    /// Anti-aliasing by whitted: a pixel is the mean of so many rays through fixed places in it, 1 to 64 [default: 1];
-    /// by path: of so many random paths, at most, 1 to 2^30 [default: 64, or without end to --until-error or --seconds]
-    #[arg(long, value_name = "N", value_parser = parse_samples())]
-    pub samples: Option<u32>,
-    /// Size of the picture that whitted traces against that of OUT, to which it is brought bilinearly: 1/4 to 1
-    #[arg(long, value_name = "S", default_value = "1", value_parser = parse_scale)]
-    pub scale: f64,
+    #[command(flatten)]
+    pub drawing: DrawingArgs,
     #[command(flatten)]
     pub paths: PathArgs,
-    /// How much of the light model is drawn, by whitted, plain or reference
-    #[arg(long, value_enum, default_value_t)]
-    pub shading: Shading,
     #[command(flatten)]
     pub ssr: SsrArgs,
-    /// Draw as a file of `zerkalo trade --save-settings` says
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["algorithm", "precision", "max_depth", "error", "samples", "scale", "seed", "numbers", "shading"])]
-    pub settings: Option<PathBuf>,
     #[command(flatten)]
     pub device: DeviceArgs,
     /// Render once to warm up, then N times, and report the median GPU time
@@ -151,14 +124,15 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     } else {
         args.reading.read(&args.scene)?
     };
-    let size = size_or_offered(args.size, size);
-    let setting = setting(args)?;
-    let algorithm = setting.map_or(args.algorithm, |setting| setting.algorithm);
-    args.paths.check(algorithm, args.repeat)?;
-    args.ssr.check(algorithm)?;
-    let rendered = match setting {
-        Some(setting) => on_device(args, size, &setting.shading.applied(&scene), &setting)?,
-        None => on_cpu(args, size, args.shading.applied(&scene).into_owned())?,
+    let size = size_or_offered(args.drawing.size, size);
+    let setting = args.drawing.setting(args.paths.usual_samples())?;
+    args.paths.check(setting.algorithm, args.repeat)?;
+    args.ssr.check(setting.algorithm)?;
+    let scene = setting.shading.applied(&scene);
+    let rendered = if setting.algorithm.description().is_on_device() {
+        on_device(args, size, &scene, &setting)?
+    } else {
+        on_cpu(args, size, scene.into_owned(), setting.max_depth)?
     };
     let told = told(args, &rendered)?;
     if is_into_stream {
@@ -171,30 +145,6 @@ pub fn run(args: &RenderArgs) -> Result<()> {
     }
     refuse_messages(&rendered.messages)?;
     if rendered.is_partial { Err(TracerError::Stopped.into()) } else { Ok(()) }
-}
-
-/// For what draws on a device; `None` for what does on the CPU.
-fn setting(args: &RenderArgs) -> Result<Option<RenderSettings>> {
-    if let Some(path) = &args.settings {
-        return Ok(Some(RenderSettings::load(path)?));
-    }
-    let setting = RenderSettings {
-        algorithm: args.algorithm,
-        precision: args.precision,
-        error: args.error,
-        max_depth: args.max_depth,
-        samples: args.paths.samples(args.algorithm, args.samples),
-        scale: args.scale,
-        seed: args.paths.seed,
-        numbers: args.paths.numbers,
-        shading: args.shading,
-        ..RenderSettings::default()
-    };
-    setting.check().map_err(|Contradiction { field, what }| {
-        let option = field.replace('_', "-");
-        TracerError::Refused(format!("--{option}: {what}"))
-    })?;
-    Ok(args.algorithm.description().is_on_device().then_some(setting))
 }
 
 fn on_device(args: &RenderArgs, size: [u32; 2], scene: &Scene, setting: &RenderSettings) -> Result<Rendered> {
@@ -252,13 +202,13 @@ fn on_device(args: &RenderArgs, size: [u32; 2], scene: &Scene, setting: &RenderS
     })
 }
 
-fn on_cpu(args: &RenderArgs, [width, height]: [u32; 2], mut scene: Scene) -> Result<Rendered> {
+fn on_cpu(args: &RenderArgs, [width, height]: [u32; 2], mut scene: Scene, max_depth: Option<u32>) -> Result<Rendered> {
     for (option, is_given) in [("--repeat", args.repeat.is_some()), ("--validate", args.validation.is_on())] {
         if is_given {
             return Err(TracerError::Refused(format!("{option} is for kernels on a Vulkan device")).into());
         }
     }
-    scene.max_depth = args.max_depth.unwrap_or(scene.max_depth);
+    scene.max_depth = max_depth.unwrap_or(scene.max_depth);
     let mut frame = Frame::new(width, height)?;
     let bar = progress_bar(u64::from(height));
     let listener = Listener::start();

@@ -3,6 +3,7 @@
 //! World frame: right-handed, y up, as the course work uses it. Lengths are in world units, angles in degrees
 //! (the unit is in the field's name), colours and intensities are linear RGB.
 
+mod animation;
 mod bounding_sphere;
 mod bounds;
 mod camera;
@@ -18,6 +19,8 @@ mod scene_space;
 mod text;
 mod validate;
 
+pub(crate) use animation::fields as animated_fields;
+pub use animation::{Interpolation, Keyframe, Part, Track, Value};
 pub use bounding_sphere::{BoundingSphere, farthest_coordinate};
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};
@@ -34,7 +37,7 @@ pub use validate::{DEPTH_LIMIT, LIGHT_LIMIT, PRIMITIVE_LIMIT};
 
 use glam::DVec3;
 
-/// Everything a picture depends on but its size.
+/// Everything a picture depends on but its size, and what changes with time.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Scene {
     /// Where rays start, world frame.
@@ -49,6 +52,8 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// In file order; a tie between two primitives of one kind goes to the earlier one.
     pub primitives: Vec<Primitive>,
+    /// What of all that changes with time; see [`Scene::go_to`].
+    pub animation: Vec<Track>,
 }
 
 impl Scene {
@@ -68,6 +73,7 @@ impl Default for Scene {
             max_depth: 20,
             lights: vec![Light::default()],
             primitives: Vec::new(),
+            animation: Vec::new(),
         }
     }
 }

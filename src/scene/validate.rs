@@ -7,6 +7,7 @@ use std::fmt;
 
 use glam::DVec3;
 
+use super::animation::{self, Part};
 use super::{Camera, Light, Primitive, Scene, SceneError, Solid, SolidKind, text};
 
 /// Most primitives in a scene, 2²⁴: every index is exact as `f32`, and the records fit one storage buffer of 2 GiB.
@@ -42,7 +43,14 @@ pub(super) enum Place<'a> {
     Scene,
     Camera,
     Light(usize),
-    Primitive { index: usize, kind: Option<SolidKind>, name: Option<&'a str> },
+    Primitive {
+        index: usize,
+        kind: Option<SolidKind>,
+        name: Option<&'a str>,
+    },
+    Track(usize),
+    /// Indices of the track and of the keyframe in it.
+    Keyframe(usize, usize),
 }
 
 impl<'a> Place<'a> {
@@ -58,6 +66,8 @@ impl fmt::Display for Place<'_> {
             Self::Scene => Ok(()),
             Self::Camera => write!(f, "camera: "),
             Self::Light(index) => write!(f, "light {}: ", index + 1),
+            Self::Track(index) => write!(f, "animation {}: ", index + 1),
+            Self::Keyframe(track, keyframe) => write!(f, "animation {}, keyframe {}: ", track + 1, keyframe + 1),
             Self::Primitive { index, kind, name } => {
                 let kind = kind.map(|kind| kind.name().to_owned());
                 let name = name.map(|name| format!("\"{}\"", text::one_line(name, text::LONGEST_QUOTE)));
@@ -79,20 +89,42 @@ pub(super) struct Violation<'a> {
     pub(super) field: &'static str,
     value: String,
     rule: &'static str,
+    /// Of the animation, where that brings it about.
+    pub(super) keyframe: Option<Place<'a>>,
+}
+
+impl<'a> Violation<'a> {
+    pub(super) fn new(place: Place<'a>, field: &'static str, value: String, rule: &'static str) -> Self {
+        Self { place, field, value, rule, keyframe: None }
+    }
+
+    /// The same as brought about by a keyframe in a scene of the same parts.
+    pub(super) fn at_keyframe(self, track: usize, keyframe: usize, scene: &Scene) -> Violation<'_> {
+        let Self { place, field, value, rule, .. } = self;
+        let place = match place {
+            Place::Primitive { index, .. } => Place::of_primitive(index, &scene.primitives[index]),
+            Place::Scene => Place::Scene,
+            Place::Camera => Place::Camera,
+            Place::Light(index) => Place::Light(index),
+            Place::Track(track) => Place::Track(track),
+            Place::Keyframe(track, keyframe) => Place::Keyframe(track, keyframe),
+        };
+        Violation { place, field, value, rule, keyframe: Some(Place::Keyframe(track, keyframe)) }
+    }
 }
 
 impl fmt::Display for Violation<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}{} = {}: {}", self.place, self.field, self.value, self.rule)
+        let Self { place, field, value, rule, keyframe } = self;
+        keyframe.iter().try_for_each(|keyframe| write!(f, "{keyframe}"))?;
+        write!(f, "{place}{field} = {value}: {rule}")
     }
 }
 
 /// The first broken rule, in the order of the scene's fields.
 pub(super) fn check(scene: &Scene) -> Result<(), Violation<'_>> {
-    check_camera(&scene.camera)?;
+    check_part(scene, Part::Scene)?;
     let whole = Field::of(Place::Scene);
-    whole.vector("background", scene.background, NOT_NEGATIVE, |v| v.min_element() >= 0.0)?;
-    whole.vector("ambient_light", scene.ambient_light, NOT_NEGATIVE, |v| v.min_element() >= 0.0)?;
     whole.rule("max_depth", (1..=DEPTH_LIMIT).contains(&scene.max_depth), DEPTH, || scene.max_depth.to_string())?;
     check_light_count(scene.lights.len())?;
     check_primitive_count(scene.primitives.len())?;
@@ -102,7 +134,21 @@ pub(super) fn check(scene: &Scene) -> Result<(), Violation<'_>> {
     for (index, primitive) in scene.primitives.iter().enumerate() {
         check_primitive(index, primitive)?;
     }
-    Ok(())
+    animation::check(scene)
+}
+
+/// What can be animated of a part, which is there.
+pub(super) fn check_part(scene: &Scene, part: Part) -> Result<(), Violation<'_>> {
+    match part {
+        Part::Scene => {
+            check_camera(&scene.camera)?;
+            let whole = Field::of(Place::Scene);
+            whole.vector("background", scene.background, NOT_NEGATIVE, |v| v.min_element() >= 0.0)?;
+            whole.vector("ambient_light", scene.ambient_light, NOT_NEGATIVE, |v| v.min_element() >= 0.0)
+        }
+        Part::Light(index) => check_light(index, &scene.lights[index]),
+        Part::Primitive(index) => check_primitive(index, &scene.primitives[index]),
+    }
 }
 
 pub(super) fn check_light_count(count: usize) -> Result<(), Violation<'static>> {
@@ -197,7 +243,7 @@ impl<'a> Field<'a> {
         rule: &'static str,
         shown: impl Fn() -> String,
     ) -> Result<(), Violation<'a>> {
-        if holds { Ok(()) } else { Err(Violation { place: self.place, field, value: shown(), rule }) }
+        if holds { Ok(()) } else { Err(Violation::new(self.place, field, shown(), rule)) }
     }
 
     fn number(

@@ -40,7 +40,7 @@ impl Document {
 
     pub(super) fn delete(&mut self) -> Result<(), Refusal> {
         let (index, _) = self.selected_or_refusal()?;
-        self.edit(None, |scene| drop(scene.primitives.remove(index)))?;
+        self.edit(None, |scene| scene.remove_primitive(index))?;
         let last = self.scene().primitives.len().checked_sub(1);
         self.select(last.map(|last| index.min(last)));
         Ok(())
@@ -93,7 +93,7 @@ impl Document {
     pub(super) fn delete_light(&mut self, index: usize) -> Result<(), Refusal> {
         Ok(self.edit(None, |scene| {
             if index < scene.lights.len() {
-                scene.lights.remove(index);
+                scene.remove_light(index);
             }
         })?)
     }

@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::mem;
 
-use crate::scene::{Camera, Light, Primitive, Scene};
+use crate::scene::{Camera, Light, Primitive, Scene, Track};
 
 /// What an edit changes: the scene, and what is selected in it.
 #[derive(Debug, Clone)]
@@ -28,12 +28,13 @@ impl Snapshot {
             + self.scene.primitives.len() * size_of::<Primitive>()
             + self.scene.lights.len() * size_of::<Light>()
             + names.map(String::len).sum::<usize>()
+            + self.scene.animation.iter().map(Track::size_bytes).sum::<usize>()
     }
 }
 
 /// Whether two scenes differ in nothing but where the camera is.
 pub(super) fn is_same_work(one: &Scene, other: &Scene) -> bool {
-    let Scene { camera, background, ambient_light, max_depth, lights, primitives } = one;
+    let Scene { camera, background, ambient_light, max_depth, lights, primitives, animation } = one;
     let Camera { position: _, direction: _, up: _, vertical_fov_degrees, projection } = camera;
     *vertical_fov_degrees == other.camera.vertical_fov_degrees
         && *projection == other.camera.projection
@@ -42,6 +43,7 @@ pub(super) fn is_same_work(one: &Scene, other: &Scene) -> bool {
         && *max_depth == other.max_depth
         && *lights == other.lights
         && *primitives == other.primitives
+        && *animation == other.animation
 }
 
 /// What a slider changes: edits of one field in a row are one step, however many values it went through.

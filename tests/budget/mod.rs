@@ -38,6 +38,7 @@ pub fn random_scene(seed: u64) -> Scene {
         background: random.vector(|random| random.uniform(0.0, 1.0)),
         max_depth: [1, 4, 20, 60][random.uniform(0.0, 4.0) as usize],
         primitives,
+        animation: Vec::new(),
     }
 }
 

@@ -19,6 +19,7 @@ mod reference_pictures;
 mod reference_refraction;
 mod reference_shading;
 mod reference_solids;
+mod scene_animation;
 mod scene_binary;
 mod scene_broken_files;
 mod scene_edits;

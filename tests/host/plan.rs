@@ -479,7 +479,7 @@ fn any_scene(random: &mut crate::random::Random) -> Scene {
     let background = DVec3::splat(rare(random, 0.2));
     let max_depth = 1 + some(random, 9) as u32;
     let camera = Camera { position: DVec3::NEG_Z * 12.0, ..Camera::default() };
-    Scene { camera, lights, primitives, background, ambient_light, max_depth }
+    Scene { camera, lights, primitives, background, ambient_light, max_depth, animation: Vec::new() }
 }
 
 #[test]

@@ -169,6 +169,7 @@ fn mr_no_ray_escapes_from_a_closed_room_of_mirrors() {
                 lights: vec![],
                 max_depth,
                 primitives: vec![primitive(room.clone(), mirror()), primitive(sphere(DVec3::X, 0.3), mirror())],
+                ..Scene::default()
             };
             let escaped = picture(&scene, 32, 32).pixels.iter().filter(|pixel| pixel.color != DVec3::ZERO).count();
             assert_eq!(escaped, 0, "of {room:?} at depth {max_depth}");

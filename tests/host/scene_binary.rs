@@ -90,7 +90,7 @@ fn what_is_wrong_is_named() {
     };
     assert_names(b"primitives = []", &["byte 0: not a zscene file"]);
     assert_names(&with(6, b"\n\n"), &["byte 0: not a zscene file"]);
-    assert_names(&with(8, &[4]), &["byte 8: version 4"]);
+    assert_names(&with(8, &[5]), &["byte 8: version 5"]);
     assert_names(&with(12, &[0]), &["max_depth = 0: must be a whole number from 1 to 1000"]);
     assert_names(&with(16, &f64::NAN.to_le_bytes()), &["background = [NaN", "finite"]);
     assert_names(&with(LIGHT_COUNT_AT - 1, &[7]), &["camera: projection = 7"]);

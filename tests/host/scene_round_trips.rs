@@ -6,7 +6,10 @@ use std::fs;
 use crate::random::Random;
 use glam::DVec3;
 use proptest::prelude::*;
-use zerkalo::scene::{Camera, Light, Material, Primitive, Projection, Scene, SceneError, Solid, SolidKind};
+use zerkalo::scene::{
+    Camera, Interpolation, Keyframe, Light, Material, Part, Primitive, Projection, Scene, SceneError, Solid, SolidKind,
+    Track, Value,
+};
 
 /// Tells −0 from 0 and any two floats of different bits apart, which `==` does not.
 fn bits(scene: &Scene) -> String {
@@ -129,16 +132,61 @@ fn any_scene() -> impl Strategy<Value = Scene> {
         material,
     });
     let lights = prop_oneof![Just(vec![Light::default()]), proptest::collection::vec(light, 0..3)];
-    (any_camera(), rgb(), ambient_light, 1u32..=1000, lights, proptest::collection::vec(primitive, 0..6)).prop_map(
-        |(camera, background, ambient_light, max_depth, lights, primitives)| Scene {
+    let still = (any_camera(), rgb(), ambient_light, 1u32..=1000, lights, proptest::collection::vec(primitive, 0..6))
+        .prop_map(|(camera, background, ambient_light, max_depth, lights, primitives)| Scene {
             camera,
             background,
             ambient_light,
             max_depth,
             lights,
             primitives,
-        },
-    )
+            animation: Vec::new(),
+        });
+    (still, proptest::collection::vec(any_track(), 0..4)).prop_map(|(mut scene, tracks)| {
+        for track in tracks {
+            let is_there = match track.part {
+                Part::Scene => true,
+                Part::Light(index) => index < scene.lights.len(),
+                Part::Primitive(index) => index < scene.primitives.len(),
+            };
+            let is_new = |other: &Track| (other.part, other.field) != (track.part, track.field);
+            if is_there && scene.animation.iter().all(is_new) {
+                scene.animation.push(track);
+            }
+        }
+        scene
+    })
+}
+
+/// Of what any light or primitive has.
+fn any_track() -> impl Strategy<Value = Track> {
+    let rgb = || [not_negative(), not_negative(), not_negative()].prop_map(DVec3::from_array).prop_map(Value::Vector);
+    let keyframes = |value: BoxedStrategy<Value>| {
+        let times = proptest::collection::btree_set(0_u32..1000, 1..4);
+        (times, proptest::collection::vec(value, 4)).prop_map(|(times, values)| {
+            let keyframe = |(time, value): (u32, Value)| Keyframe { seconds: f64::from(time) * 0.1, value };
+            times.into_iter().zip(values).map(keyframe).collect()
+        })
+    };
+    let of = |part, field: &'static str, value: BoxedStrategy<Value>| {
+        let interpolation = proptest::sample::select(Interpolation::ALL.to_vec());
+        (interpolation, keyframes(value)).prop_map(move |(interpolation, keyframes)| Track {
+            part,
+            field,
+            interpolation,
+            keyframes,
+        })
+    };
+    let fraction = || fraction().prop_map(Value::Number).boxed();
+    prop_oneof![
+        of(Part::Scene, "background", rgb().boxed()),
+        of(Part::Scene, "camera.position", any_vector().prop_map(Value::Vector).boxed()),
+        of(Part::Light(0), "intensity", rgb().boxed()),
+        of(Part::Light(1), "distance_constant", positive().prop_map(Value::Number).boxed()),
+        of(Part::Primitive(0), "material.reflection", fraction()),
+        of(Part::Primitive(4), "material.transmission", fraction()),
+        of(Part::Primitive(2), "material.color", Just(Value::Vector(DVec3::splat(0.5))).boxed()),
+    ]
 }
 
 proptest! {

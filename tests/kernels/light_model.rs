@@ -69,6 +69,7 @@ fn random_scene(seed: u64) -> Scene {
         max_depth: 6,
         lights: vec![fading, light(&mut random, None)],
         primitives,
+        ..Scene::default()
     }
 }
 

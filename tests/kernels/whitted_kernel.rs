@@ -163,6 +163,7 @@ fn mr_no_ray_escapes_from_a_closed_room_of_mirrors() {
                 lights: vec![],
                 max_depth: 200,
                 primitives: vec![primitive(room.clone(), mirror()), primitive(sphere(DVec3::X, 0.3), mirror())],
+                ..Scene::default()
             };
             let frame = tracers.draw(&scene, &settings(precision, 48, 48));
             let escaped = frame.pixels().iter().filter(|&&pixel| pixel != [0.0; 3]).count();

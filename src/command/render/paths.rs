@@ -7,25 +7,16 @@ use anyhow::Result;
 use clap::Args;
 
 use crate::algorithm::Algorithm;
+use crate::command::drawing::DrawingArgs;
 use crate::command::interrupt::Listener;
 use crate::command::options::parse_positive;
 use crate::command::progress_bar;
-use crate::settings::Numbers;
 use crate::settings::sampling::MAX_PATH_SAMPLES;
 use crate::tracer::{Progressive, TracerError};
-
-/// Of a picture for which nothing is asked.
-const USUAL_SAMPLES: u32 = 64;
 
 /// Options of path tracing.
 #[derive(Debug, Clone, Args)]
 pub struct PathArgs {
-    /// By path: another picture of the same scene, by other random numbers
-    #[arg(long, value_name = "S", default_value = "0")]
-    pub seed: u32,
-    /// By path: what random numbers; independent ones are for comparison
-    #[arg(long, value_enum, default_value_t)]
-    pub numbers: Numbers,
     /// By path: until the estimated standard error of 99 % of the pixels is at most E
     #[arg(long, value_name = "E", value_parser = parse_positive, allow_hyphen_values = true)]
     pub until_error: Option<f64>,
@@ -58,15 +49,10 @@ impl PathArgs {
         Ok(())
     }
 
-    /// Samples of a pixel, at most.
-    pub(super) fn samples(&self, algorithm: Algorithm, asked: Option<u32>) -> u32 {
-        let is_statistical = algorithm.description().is_statistical;
+    /// Samples of a pixel, at most, where none are asked for.
+    pub(super) fn usual_samples(&self) -> u32 {
         let has_end = self.until_error.is_some() || self.seconds.is_some();
-        asked.unwrap_or(match (is_statistical, has_end) {
-            (false, _) => 1,
-            (true, false) => USUAL_SAMPLES,
-            (true, true) => MAX_PATH_SAMPLES,
-        })
+        if has_end { MAX_PATH_SAMPLES } else { DrawingArgs::USUAL_PATH_SAMPLES }
     }
 
     /// Takes samples of each pixel until there are enough, or Ctrl-C; returns the GPU time of each run, nanoseconds.

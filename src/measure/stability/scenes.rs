@@ -115,6 +115,7 @@ pub(super) fn rooms(max_depth: u32) -> Vec<Scene> {
             primitive(solid, mirror.clone()),
             primitive(Solid::Sphere { center: DVec3::X, radius: 0.3 }, mirror.clone()),
         ],
+        ..Scene::default()
     };
     solids.map(room).to_vec()
 }

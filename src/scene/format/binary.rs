@@ -6,25 +6,28 @@
 //! | what | as |
 //! | --- | --- |
 //! | `zscene` CR LF | 8 bytes |
-//! | version: 3 where anything is not as in the course work but a light's radius, else 2 where one is not 0.01, else 1 | u32 |
+//! | version: 4 where anything moves, else 3 where anything is not as in the course work but a light's radius, else 2 where one is not 0.01, else 1 | u32 |
 //! | max_depth | u32 |
 //! | background | 3 numbers |
-//! | of version 3: ambient_light | 3 numbers |
+//! | from version 3 on: ambient_light | 3 numbers |
 //! | camera: position, direction, up, vertical_fov_degrees | 10 numbers |
 //! | projection: 0 is centered, 1 is course | u8 |
 //! | count of lights | u64 |
-//! | each: position, intensity, from version 2 on radius, of version 3 distance_constant or 0 | 6, 7 or 8 numbers |
+//! | each: position, intensity, from version 2 on radius, from version 3 on distance_constant or 0 | 6, 7 or 8 numbers |
 //! | count of primitives | u64 |
 //! | each: kind (0 sphere, 1 box, 2 cylinder, 3 cone), and 128 where it has a name | u8 |
 //! | its name, if any, in UTF-8: bytes, and they | u64, bytes |
 //! | its geometry, in the order of the text forms' fields | 4, 9, 7 or 8 numbers |
 //! | its material: color, ambient, diffuse, specular | 6 numbers |
-//! | of version 3: reflection or −1, shininess, transmission, refractive_index | 4 numbers |
+//! | from version 3 on: reflection or −1, shininess, transmission, refractive_index | 4 numbers |
+//! | of version 4: the JSON form's `animation` in an object of its own: bytes, and they | u64, bytes |
 //! | CRC-32 of all before | u32 |
 
 use glam::DVec3;
 
-use super::Fault;
+use super::markup::Markup;
+use super::tree::Document;
+use super::{Fault, decode, write};
 use crate::scene::validate::{Place, Violation, check_light_count, check_primitive_count, unit};
 use crate::scene::{Camera, Light, Material, Primitive, Projection, Scene, Solid, SolidKind};
 
@@ -36,6 +39,8 @@ const VERSION: u32 = 1;
 const VERSION_OF_RADII: u32 = 2;
 /// All of the light model.
 const VERSION_OF_LIGHT_MODEL: u32 = 3;
+/// An animation.
+const VERSION_OF_ANIMATION: u32 = 4;
 /// In a kind's byte.
 const HAS_NAME: u8 = 128;
 /// Bytes of the smallest light, and of the smallest primitive.
@@ -43,7 +48,7 @@ const LIGHT_BYTES: usize = 6 * 8;
 const SMALLEST_PRIMITIVE_BYTES: usize = 1 + (4 + 6) * 8;
 
 pub(super) fn encode(scene: &Scene) -> Vec<u8> {
-    let Scene { camera, background, ambient_light, max_depth, lights, primitives } = scene;
+    let Scene { camera, background, ambient_light, max_depth, lights, primitives, animation } = scene;
     let room = 256 + lights.len() * LIGHT_BYTES + primitives.len() * SMALLEST_PRIMITIVE_BYTES;
     let version = least_version(scene);
     let mut writer = Writer { bytes: Vec::with_capacity(room), version };
@@ -73,6 +78,11 @@ pub(super) fn encode(scene: &Scene) -> Vec<u8> {
     }
     writer.count(primitives.len());
     primitives.iter().for_each(|primitive| writer.primitive(primitive));
+    if !animation.is_empty() {
+        let text = format!("{{\"animation\": {}}}", write::animation(scene, Markup::Json));
+        writer.count(text.len());
+        writer.raw(text.as_bytes());
+    }
     let sum = crc32fast::hash(&writer.bytes);
     writer.raw(&sum.to_le_bytes());
     writer.bytes
@@ -97,7 +107,9 @@ fn least_version(scene: &Scene) -> u32 {
                 == [usual.shininess, usual.transmission, usual.refractive_index].map(f64::to_bits)
     };
     let has_constants = scene.lights.iter().any(|light| light.distance_constant.is_some());
-    if scene.ambient_light != DVec3::ONE || has_constants || !scene.primitives.iter().all(is_of_course) {
+    if !scene.animation.is_empty() {
+        VERSION_OF_ANIMATION
+    } else if scene.ambient_light != DVec3::ONE || has_constants || !scene.primitives.iter().all(is_of_course) {
         VERSION_OF_LIGHT_MODEL
     } else if scene.lights.iter().any(|light| light.radius != Light::COURSE_RADIUS) {
         VERSION_OF_RADII
@@ -180,8 +192,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Scene, Fault> {
         return Err(Fault { offset: 0, what: "not a zscene file: its first bytes are others".to_owned() });
     }
     let version = reader.u32()?;
-    if !(VERSION..=VERSION_OF_LIGHT_MODEL).contains(&version) {
-        let known = format!("{VERSION} to {VERSION_OF_LIGHT_MODEL} are");
+    if !(VERSION..=VERSION_OF_ANIMATION).contains(&version) {
+        let known = format!("{VERSION} to {VERSION_OF_ANIMATION} are");
         return Err(reader.fault(4, format!("version {version} of zscene files is not known here: {known}")));
     }
     reader.version = version;
@@ -260,7 +272,16 @@ impl<'b> Reader<'b> {
         self.place = Place::Scene;
         let lights = self.list(check_light_count, LIGHT_BYTES, Self::light)?;
         let primitives = self.list(check_primitive_count, SMALLEST_PRIMITIVE_BYTES, Self::primitive)?;
-        Ok(Scene { camera, background, ambient_light, max_depth, lights, primitives })
+        let mut scene =
+            Scene { camera, background, ambient_light, max_depth, lights, primitives, animation: Vec::new() };
+        if self.version >= VERSION_OF_ANIMATION {
+            let text = self.text("its animation")?;
+            let start = self.offset - text.len();
+            let moved = Fault::moved_by(start);
+            scene.animation =
+                decode::animation_of(Document::parse_json(text).map_err(moved)?.root(), &scene).map_err(moved)?;
+        }
+        Ok(scene)
     }
 
     fn camera(&mut self) -> Result<Camera, Fault> {
@@ -311,7 +332,7 @@ impl<'b> Reader<'b> {
             self.fault(1, format!("kind = {first}: {rule}"))
         })?;
         self.place = Place::Primitive { index, kind: Some(kind), name: None };
-        let name = if first & HAS_NAME != 0 { Some(self.name()?) } else { None };
+        let name = if first & HAS_NAME != 0 { Some(self.text("its name")?) } else { None };
         self.place = Place::Primitive { index, kind: Some(kind), name };
         let solid = self.solid(kind)?;
         let material = self.material()?;
@@ -330,10 +351,11 @@ impl<'b> Reader<'b> {
         Ok(Material { reflection, shininess, transmission, refractive_index, ..usual })
     }
 
-    fn name(&mut self) -> Result<&'b str, Fault> {
+    /// Its length, and itself.
+    fn text(&mut self, what: &str) -> Result<&'b str, Fault> {
         let length = u64::from_le_bytes(self.bytes()?);
         let bytes = self.slice(length)?;
-        std::str::from_utf8(bytes).map_err(|error| self.fault(bytes.len(), format!("its name is not UTF-8: {error}")))
+        std::str::from_utf8(bytes).map_err(|error| self.fault(bytes.len(), format!("{what} is not UTF-8: {error}")))
     }
 
     fn solid(&mut self, kind: SolidKind) -> Result<Solid, Fault> {

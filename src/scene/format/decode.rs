@@ -3,23 +3,124 @@
 use glam::DVec3;
 
 use super::Fault;
+use super::names::UniqueNames;
 use super::tree::{Entry, Node, Shape};
 use crate::scene::text;
 use crate::scene::validate::{DEPTH, FINITE, Place, Violation, check_light_count, check_primitive_count, unit};
-use crate::scene::{Camera, Light, Material, Primitive, Projection, Scene, Solid, SolidKind};
+use crate::scene::{
+    Camera, Interpolation, Keyframe, Light, Material, Part, Primitive, Projection, Scene, Solid, SolidKind, Track,
+    Value, animated_fields,
+};
 
 pub(super) fn scene(root: Node<'_>) -> Result<Scene, Fault> {
-    const FIELDS: &[&str] = &["camera", "background", "ambient_light", "max_depth", "lights", "primitives"];
+    const FIELDS: &[&str] =
+        &["camera", "background", "ambient_light", "max_depth", "lights", "primitives", "animation"];
     let fields = Fields::of(root, Place::Scene, "", FIELDS)?;
     let default = Scene::default();
-    Ok(Scene {
+    let mut scene = Scene {
         camera: fields.get("camera").map_or(Ok(default.camera), camera)?,
         background: fields.read("background", vector, default.background)?,
         ambient_light: fields.read("ambient_light", vector, default.ambient_light)?,
         max_depth: fields.read("max_depth", depth, default.max_depth)?,
         lights: fields.list("lights", check_light_count, light)?.unwrap_or(default.lights),
         primitives: fields.list("primitives", check_primitive_count, primitive)?.unwrap_or_default(),
+        animation: Vec::new(),
+    };
+    scene.animation = animation(&fields, &scene)?;
+    Ok(scene)
+}
+
+/// What of a scene moves, from an object that has nothing else; the rest of the scene is there.
+pub(super) fn animation_of(root: Node<'_>, scene: &Scene) -> Result<Vec<Track>, Fault> {
+    animation(&Fields::of(root, Place::Scene, "", &["animation"])?, scene)
+}
+
+fn animation(fields: &Fields<'_>, scene: &Scene) -> Result<Vec<Track>, Fault> {
+    let names = UniqueNames::of(&scene.primitives);
+    let track = |index, node| track(index, node, scene, &names);
+    Ok(fields.list("animation", |_| Ok(()), track)?.unwrap_or_default())
+}
+
+fn track(index: usize, node: Node<'_>, scene: &Scene, names: &UniqueNames<'_>) -> Result<Track, Fault> {
+    const FIELDS: &[&str] = &["primitive", "light", "field", "interpolation", "keyframes"];
+    let place = Place::Track(index);
+    let fields = Fields::of(node, place, "", FIELDS)?;
+    let number = |node, count| match whole_number(node) {
+        Some(number) if (1..=count).contains(&number) => Ok(number - 1),
+        _ => Err(()),
+    };
+    let part = match (fields.get("primitive"), fields.get("light")) {
+        (Some(node), Some(_)) => {
+            return Err(wrong(node, place, "", "primitive", "one track changes a primitive or a light, not both"));
+        }
+        (Some(node), None) => {
+            let by_name = |name| names.index(name).ok_or("must be the name of exactly one primitive");
+            let index = match node.shape() {
+                Shape::String(name) => by_name(name),
+                _ => number(node, scene.primitives.len())
+                    .map_err(|()| "must be the number of a primitive, from 1, or its name"),
+            };
+            Part::Primitive(index.map_err(|rule| wrong(node, place, "", "primitive", rule))?)
+        }
+        (None, Some(node)) => {
+            let index = number(node, scene.lights.len());
+            Part::Light(index.map_err(|()| wrong(node, place, "", "light", "must be the number of a light, from 1"))?)
+        }
+        (None, None) => Part::Scene,
+    };
+    let kind = match part {
+        Part::Primitive(index) => Some(scene.primitives[index].solid.kind()),
+        Part::Scene | Part::Light(_) => None,
+    };
+    let missing = |what| Err(Fault { offset: node.offset(), what: format!("{place}{what} is missing") });
+    let Some(field_node) = fields.get("field") else { return missing("field") };
+    let allowed = animated_fields(part, kind);
+    let Some(field) = allowed.iter().find(|name| matches!(field_node.shape(), Shape::String(given) if given == **name))
+    else {
+        return Err(wrong(field_node, place, "", "field", &format!("must be one of {}", allowed.join(", "))));
+    };
+    let keyframes = fields.list("keyframes", |_| Ok(()), |number, node| keyframe([index, number], node))?;
+    let Some(keyframes) = keyframes else { return missing("keyframes") };
+    let interpolation = fields.read("interpolation", interpolation, Interpolation::default())?;
+    Ok(Track { part, field, interpolation, keyframes })
+}
+
+fn keyframe([track, keyframe]: [usize; 2], node: Node<'_>) -> Result<Keyframe, Fault> {
+    let place = Place::Keyframe(track, keyframe);
+    let fields = Fields::of(node, place, "", &["seconds", "value"])?;
+    let missing = |what| Fault { offset: node.offset(), what: format!("{place}{what} is missing") };
+    fields.get("seconds").ok_or_else(|| missing("seconds"))?;
+    fields.get("value").ok_or_else(|| missing("value"))?;
+    Ok(Keyframe {
+        seconds: fields.read("seconds", number, 0.0)?,
+        value: fields.read("value", value, Value::Number(0.0))?,
     })
+}
+
+/// Which of the three types is the field's business.
+fn value(node: Node<'_>) -> Result<Value, &'static str> {
+    const RULE: &str = "must be a number, an array of three, or for ends an array of two points";
+    match node.shape() {
+        Shape::Array(nodes) if nodes.len() == 2 => two_points(node).map(Value::Points),
+        Shape::Array(_) => vector(node).map(Value::Vector),
+        _ => number(node).map(Value::Number),
+    }
+    .map_err(|rule| if rule == FINITE { rule } else { RULE })
+}
+
+fn interpolation(node: Node<'_>) -> Result<Interpolation, &'static str> {
+    match node.shape() {
+        Shape::String(name) => Interpolation::ALL.into_iter().find(|interpolation| interpolation.name() == name),
+        _ => None,
+    }
+    .ok_or("must be \"linear\" or \"catmull-rom\"")
+}
+
+fn whole_number(node: Node<'_>) -> Option<usize> {
+    match node.shape() {
+        Shape::Integer { digits, radix } => usize::from_str_radix(digits, radix).ok(),
+        _ => None,
+    }
 }
 
 fn camera(node: Node<'_>) -> Result<Camera, Fault> {

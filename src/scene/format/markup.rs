@@ -61,11 +61,15 @@ fn on_a_large_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Strin
 /// Where the offending value stands, or the innermost table around it when the value is a default.
 fn locate<'t>(root: Node<'t>, violation: &Violation<'_>) -> Node<'t> {
     let element = |list, index| root.get(list).and_then(|list| list.at(index));
-    let place = match violation.place {
+    let place = match violation.keyframe.unwrap_or(violation.place) {
         Place::Scene => None,
         Place::Camera => root.get("camera"),
         Place::Light(index) => element("lights", index),
         Place::Primitive { index, .. } => element("primitives", index),
+        Place::Track(index) => element("animation", index),
+        Place::Keyframe(track, keyframe) => {
+            element("animation", track).and_then(|track| track.get("keyframes")?.at(keyframe))
+        }
     };
     let mut node = place.unwrap_or(root);
     for key in violation.field.split('.') {

@@ -5,6 +5,7 @@
 mod binary;
 mod decode;
 mod markup;
+mod names;
 mod nff;
 mod note;
 mod povray;
@@ -165,6 +166,13 @@ struct Fault {
     /// Bytes from the start.
     offset: usize,
     what: String,
+}
+
+impl Fault {
+    /// The same of a file in which the bytes begin at `start`.
+    fn moved_by(start: usize) -> impl Fn(Self) -> Self + Copy {
+        move |Self { offset, what }| Self { offset: start + offset, what }
+    }
 }
 
 impl Scene {

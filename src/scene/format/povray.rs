@@ -55,6 +55,9 @@ pub(super) fn write(scene: &Scene, export: &Export) -> Written {
     if scene.primitives.iter().any(|primitive| is_lost(&primitive.material)) {
         losses.push("what lets all light through has no colour of its own".to_owned());
     }
+    if !scene.animation.is_empty() {
+        losses.push("nothing moves: the scene is as its file has it".to_owned());
+    }
     Written { bytes: text.into_bytes(), losses }
 }
 

@@ -5,8 +5,9 @@
 use glam::DVec3;
 
 use super::markup::Markup;
+use super::names::UniqueNames;
 use crate::scene::text::{number, quoted, vector};
-use crate::scene::{Camera, Light, Material, Primitive, Scene, Solid};
+use crate::scene::{Camera, Interpolation, Keyframe, Light, Material, Part, Primitive, Scene, Solid, Track, Value};
 
 impl Scene {
     /// The scene as TOML; reads back to the bit if the scene is valid.
@@ -28,6 +29,9 @@ impl Scene {
         if !self.primitives.is_empty() {
             line("primitives", &rows(&self.primitives, |primitive| Markup::Toml.primitive(primitive)));
         }
+        if !self.animation.is_empty() {
+            line("animation", &animation(self, Markup::Toml));
+        }
         lines.concat()
     }
 
@@ -37,9 +41,18 @@ impl Scene {
         fields.push(("camera", Markup::Json.table(&camera_fields(&self.camera))));
         fields.push(("lights", rows(&self.lights, |light| Markup::Json.light(light))));
         fields.push(("primitives", rows(&self.primitives, |primitive| Markup::Json.primitive(primitive))));
+        if !self.animation.is_empty() {
+            fields.push(("animation", animation(self, Markup::Json)));
+        }
         let lines: Vec<String> = fields.iter().map(|(key, value)| format!("\"{key}\": {value}")).collect();
         format!("{{\n{}\n}}\n", lines.join(",\n"))
     }
+}
+
+/// The tracks; they name primitives where names tell them apart.
+pub(super) fn animation(scene: &Scene, markup: Markup) -> String {
+    let names = UniqueNames::of(&scene.primitives);
+    rows(&scene.animation, |track| markup.track(track, scene, &names))
 }
 
 /// A field's name and its value's text; numbers, strings and arrays are spelled alike in both formats.
@@ -92,7 +105,7 @@ fn solid_fields(solid: &Solid) -> Vec<Field> {
             ("rotation_degrees", vector(*rotation_degrees)),
         ],
         Solid::Cylinder { ends, radius } => {
-            vec![("ends", format!("[{}, {}]", vector(ends[0]), vector(ends[1]))), ("radius", number(*radius))]
+            vec![("ends", points(ends)), ("radius", number(*radius))]
         }
         Solid::Cone { apex, axis, height, half_angle_degrees } => vec![
             ("apex", vector(*apex)),
@@ -100,6 +113,18 @@ fn solid_fields(solid: &Solid) -> Vec<Field> {
             ("height", number(*height)),
             ("half_angle_degrees", number(*half_angle_degrees)),
         ],
+    }
+}
+
+fn points([start, end]: &[DVec3; 2]) -> String {
+    format!("[{}, {}]", vector(*start), vector(*end))
+}
+
+fn value_text(value: Value) -> String {
+    match value {
+        Value::Number(value) => number(value),
+        Value::Vector(value) => vector(value),
+        Value::Points(value) => points(&value),
     }
 }
 
@@ -124,6 +149,26 @@ impl Markup {
         if !material.is_empty() {
             fields.push(("material", self.table(&material)));
         }
+        self.table(&fields)
+    }
+
+    fn track(self, track: &Track, scene: &Scene, names: &UniqueNames<'_>) -> String {
+        let name = |index: usize| scene.primitives[index].name.as_deref().filter(|name| names.index(name).is_some());
+        let part = match track.part {
+            Part::Scene => None,
+            Part::Light(index) => Some(("light", (index + 1).to_string())),
+            Part::Primitive(index) => Some(("primitive", name(index).map_or_else(|| (index + 1).to_string(), quoted))),
+        };
+        let mut fields: Vec<Field> = part.into_iter().collect();
+        fields.push(("field", quoted(track.field)));
+        if track.interpolation != Interpolation::default() {
+            fields.push(("interpolation", quoted(track.interpolation.name())));
+        }
+        let keyframe = |keyframe: &Keyframe| {
+            self.table(&[("seconds", number(keyframe.seconds)), ("value", value_text(keyframe.value))])
+        };
+        let keyframes: Vec<String> = track.keyframes.iter().map(keyframe).collect();
+        fields.push(("keyframes", format!("[{}]", keyframes.join(", "))));
         self.table(&fields)
     }
 

@@ -106,6 +106,7 @@ pub(super) fn fading() -> Scene {
             distance_constant: Some(0.5),
         }],
         primitives,
+        ..Scene::default()
     }
 }
 

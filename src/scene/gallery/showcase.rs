@@ -71,6 +71,7 @@ pub(super) fn scene() -> Scene {
                 painted(DVec3::new(0.1, 0.65, 0.35)),
             ),
         ],
+        animation: Vec::new(),
     }
 }
 
