@@ -1,5 +1,6 @@
 //! A finished picture: linear pixels in memory, PNG or OpenEXR on disk.
 
+mod apng_file;
 mod exr_file;
 mod png_file;
 
@@ -9,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+pub use self::apng_file::AnimatedPng;
 use crate::whole_file::WholeFile;
 
 /// Linear RGB pixels, row-major, row 0 on top. Values are not limited: a highlight may exceed 1.
@@ -220,6 +222,11 @@ impl Frame {
         output.flush().map_err(|error| FrameError::write(path, error))?;
         drop(output);
         file.finish().map_err(|error| FrameError::write(path, error))
+    }
+
+    /// The [display values](display_value), red, green and blue of each pixel, row by row from the top.
+    pub fn display_bytes(&self) -> Vec<u8> {
+        self.pixels.iter().flatten().map(|&value| display_value(value)).collect()
     }
 
     /// The bytes of a file.

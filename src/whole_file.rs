@@ -71,6 +71,11 @@ impl WholeFile {
         self.temporary.as_mut().expect("the file is not finished").as_file_mut()
     }
 
+    /// For another program to write to.
+    pub fn temporary_path(&self) -> &Path {
+        &self.temporary_path
+    }
+
     /// Puts what was written in the target's place.
     pub fn finish(mut self) -> io::Result<()> {
         // Some file systems report a full disk only now; and the name must not reach the disk before the data.

@@ -1,6 +1,7 @@
 //! One file a subcommand, each a few lines over the library.
 
 mod algorithms;
+mod animate;
 pub mod compare;
 mod convert;
 mod devices;
@@ -47,6 +48,7 @@ use crate::viewer::ViewerError;
 pub enum Command {
     View(view::ViewArgs),
     Render(render::RenderArgs),
+    Animate(animate::AnimateArgs),
     Plan(plan::PlanArgs),
     Compare(compare::CompareArgs),
     Stability(stability::StabilityArgs),
@@ -67,6 +69,7 @@ impl Command {
         match self {
             Self::View(args) => view::run(args),
             Self::Render(args) => render::run(args),
+            Self::Animate(args) => animate::run(args),
             Self::Plan(args) => plan::run(args),
             Self::Compare(args) => Ok(compare::run(args)?),
             Self::Stability(args) => stability::run(args),
@@ -327,6 +330,7 @@ pub fn exit_code(error: &anyhow::Error) -> u8 {
     if is_reader_gone {
         READER_GONE
     } else if matches!(error.downcast_ref(), Some(TracerError::Stopped))
+        || error.is::<animate::Stopped>()
         || error.is::<fps::Stopped>()
         || error.is::<report::Stopped>()
     {

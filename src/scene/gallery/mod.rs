@@ -8,6 +8,7 @@ mod families;
 mod figures;
 mod glass;
 mod lights;
+mod motion;
 mod showcase;
 
 use std::path::Path;
@@ -77,7 +78,7 @@ fn maker(name: &str) -> Option<Maker> {
 }
 
 fn makers() -> Vec<(Entry, Maker)> {
-    let single: [(&str, MakeScene, &str, &str); 15] = [
+    let single: [(&str, MakeScene, &str, &str); 18] = [
         ("showcase", showcase::scene, "the four solids among mirrors", "четыре тела среди зеркал"),
         (
             "glass",
@@ -94,6 +95,14 @@ fn makers() -> Vec<(Entry, Maker)> {
             "рисунок 1.7: в зеркале то, чего не видит наблюдатель",
         ),
         ("matt", lights::matt_still_life, "dark matt solids under a sky", "тёмные матовые тела под небом"),
+        ("orbit", motion::orbit, "moves: once around the four solids", "движение: один оборот вокруг четырёх тел"),
+        ("dolly", motion::dolly, "moves: between two mirrors", "движение: проезд между двумя зеркалами"),
+        (
+            "reflection",
+            motion::reflection,
+            "moves: reflection from 0 to 1 and back",
+            "движение: отражение от 0 до 1 и обратно",
+        ),
         ("start", figures::start, "the course program as it starts", "начальное состояние программы"),
         ("sphere", figures::sphere, "a sphere", "сфера"),
         ("box", figures::rotated_box, "a turned cube", "повёрнутый куб"),
