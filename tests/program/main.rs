@@ -9,6 +9,7 @@ mod place;
 #[path = "../random/mod.rs"]
 mod random;
 
+mod animate;
 mod command_line;
 mod compile;
 mod fps;
