@@ -23,7 +23,7 @@ fn every_gallery_scene_is_drawn_without_a_message() {
     let mut scenes: Vec<_> = entries.iter().map(|entry| (&entry.name, gallery::scene(&entry.name).unwrap())).collect();
     // Two are of the accurate model only.
     scenes.retain(|(_, scene)| course::check(scene).is_ok());
-    assert_eq!(scenes.len(), 50);
+    assert_eq!(scenes.len(), 52);
     scenes.sort_by_key(|(_, scene)| scene.max_depth);
     let mut tracer = Tracer::new(&device, &scenes[0].1, &settings).unwrap();
     for (name, scene) in scenes {

@@ -30,14 +30,15 @@ pub(super) fn orbit() -> Scene {
     scene
 }
 
-/// Between two mirrors that face each other, past balls and columns.
+/// Between two mirrors that face each other, past balls and columns. What stands on the floor goes a little into it: of
+/// faces that are one, rounding decides which is seen.
 pub(super) fn dolly() -> Scene {
     let mirror = Material::of_course(DVec3::new(0.8, 0.85, 0.9), 0.02, 0.05, 0.8);
     let painted = |color| Material::of_course(color, 0.12, 0.75, 0.2);
     let plain = |solid, material| Primitive { name: None, solid, material };
     let slab = |x, half_x| Solid::Box {
-        center: DVec3::new(x, 1.5, 8.0),
-        half_size: DVec3::new(half_x, 1.5, 12.0),
+        center: DVec3::new(x, 1.45, 8.1),
+        half_size: DVec3::new(half_x, 1.55, 11.7),
         rotation_degrees: DVec3::ZERO,
     };
     let floor = Solid::Box {
@@ -54,7 +55,7 @@ pub(super) fn dolly() -> Scene {
     for index in 0..6_u32 {
         let side = if index % 2 == 0 { 1.2 } else { -1.2 };
         let (place, color) =
-            (DVec3::new(side, 0.0, 2.0 + 2.5 * f64::from(index)), colors[index as usize % colors.len()]);
+            (DVec3::new(side, -0.02, 2.0 + 2.5 * f64::from(index)), colors[index as usize % colors.len()]);
         let solid = if index % 3 == 2 {
             Solid::Cylinder { ends: [place, place + 2.2 * DVec3::Y], radius: 0.3 }
         } else {
@@ -69,11 +70,11 @@ pub(super) fn dolly() -> Scene {
         ..Light::default()
     };
     let through =
-        [(0.0, DVec3::new(0.0, 1.3, -4.0)), (2.0, DVec3::new(0.5, 1.1, 4.0)), (SECONDS, DVec3::new(0.0, 1.3, 12.0))];
+        [(0.0, DVec3::new(-0.1, 1.3, -4.0)), (2.0, DVec3::new(0.5, 1.1, 4.0)), (SECONDS, DVec3::new(-0.1, 1.3, 12.0))];
     Scene {
         camera: Camera {
             position: through[0].1,
-            direction: DVec3::Z,
+            direction: DVec3::new(0.03, -0.04, 1.0),
             up: DVec3::Y,
             vertical_fov_degrees: 50.0,
             projection: Projection::Centered,
