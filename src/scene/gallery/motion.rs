@@ -65,7 +65,7 @@ pub(super) fn dolly() -> Scene {
     }
     let light = |z: f64| Light {
         position: DVec3::new(0.0, 2.8, z),
-        intensity: DVec3::splat(0.8),
+        intensity: DVec3::splat(2.5),
         distance_constant: Some(1.0),
         ..Light::default()
     };
