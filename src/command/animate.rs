@@ -1,10 +1,10 @@
 //! `zerkalo animate SCENE -o OUT`: the pictures of a scene that moves.
 
 mod film;
+mod painter;
 
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
-use std::sync::Arc;
 use std::time::Instant;
 
 use anyhow::Result;
@@ -12,20 +12,20 @@ use clap::Args;
 use serde::Serialize;
 
 use self::film::{Film, Numbered, Target};
+use self::painter::{Drawn, Painter};
 use super::drawing::DrawingArgs;
 use super::interrupt::Listener;
-use super::options::parse_positive;
+use super::options::{Contradictory, parse_positive};
 use super::{
     DeviceArgs, ReadingArgs, ValidationArgs, print_json, print_line, progress_bar, refuse_messages, size_or_offered,
 };
 use crate::algorithm::{Algorithm, Precision};
-use crate::frame::Frame;
 use crate::gpu::Device;
 use crate::measure::median;
-use crate::plan::{Limits, Plan};
-use crate::scene::Scene;
-use crate::settings::RenderSettings;
-use crate::tracer::{Progressive, Settings, Tracer, TracerError, limits_of};
+use crate::tracer::TracerError;
+
+/// Pictures of one run, so that what is told of them fits in memory.
+const MOST_PICTURES: u64 = 1_000_000;
 
 /// Render the pictures of a scene that moves, each a file or all in one
 ///
@@ -74,15 +74,9 @@ struct FrameReport {
     gpu_time_ns: Option<u64>,
     /// From the scene before to this one's pixels, and until the one that writes them could take them.
     frame_time_ns: u64,
-    #[serde(flatten)]
-    precision: Drawn,
-}
-
-/// What a picture was drawn by.
-#[derive(Debug, Clone, Copy, Serialize)]
-struct Drawn {
-    #[serde(rename = "precision")]
-    choice: Precision,
+    /// What it was calculated in.
+    precision: Precision,
+    /// No linear channel is changed more by what was left out.
     error_bound: f64,
 }
 
@@ -121,25 +115,26 @@ pub fn run(args: &AnimateArgs) -> Result<()> {
     let scene = reading.scene;
     let target = Target::of(&args.output)?;
     if args.skip_existing && !target.is_many() {
-        return Err(refused("--skip-existing is for files of their own, such as -o frames/%04d.png"));
+        return Err(Contradictory("--skip-existing is for files of their own, such as -o frames/%04d.png").into());
     }
     if scene.animation.is_empty() {
-        return Err(refused("nothing moves in the scene: it has no [[animation]]; `zerkalo render` draws it"));
+        let what = "nothing moves in the scene: it has no [[animation]]; `zerkalo render` draws it";
+        return Err(Contradictory(what).into());
     }
-    let numbers = numbers(&scene, args)?;
+    let numbers = numbers(scene.duration_seconds(), args)?;
     let setting = args.drawing.setting(DrawingArgs::USUAL_PATH_SAMPLES)?;
     if !setting.algorithm.description().is_on_device() {
         let what = format!("--algorithm {}: animations are drawn on a device", setting.algorithm.name());
         return Err(TracerError::Refused(what).into());
     }
-    let all = numbers.clone().count();
+    let (all, is_many) = (numbers.clone().count(), target.is_many());
     let missing: Vec<u64> = numbers.filter(|&number| !(args.skip_existing && target.has_whole(number, size))).collect();
     let skipped = all - missing.len();
 
     let listener = Listener::start();
     let device = Device::open(args.device.device.as_deref(), args.validation.validation())?;
     let (description, messages) = (device.description().clone(), device.messages().clone());
-    let mut film = Film::begin(target, size, args.fps, missing.len(), &args.ffmpeg)?;
+    let film = Film::begin(target, size, args.fps, missing.len(), &args.ffmpeg)?;
     let mut painter = Painter::new(&device, scene, setting, size);
     let mut reports = Vec::new();
     let bar = progress_bar(missing.len() as u64);
@@ -147,8 +142,7 @@ pub fn run(args: &AnimateArgs) -> Result<()> {
     let mut drawn_all = Ok(());
     for &number in &missing {
         let seconds = number as f64 / args.fps;
-        let drawn = painter.draw(seconds, &listener);
-        let (frame, gpu_time_ns, precision) = match drawn {
+        let Drawn { frame, gpu_time_ns, precision, error_bound } = match painter.draw(seconds, &listener) {
             Ok(drawn) => drawn,
             Err(error) => {
                 drawn_all = Err(error);
@@ -159,7 +153,7 @@ pub fn run(args: &AnimateArgs) -> Result<()> {
             break;
         }
         let frame_time_ns = begun.elapsed().as_nanos() as u64;
-        reports.push(FrameReport { number, seconds, gpu_time_ns, frame_time_ns, precision });
+        reports.push(FrameReport { number, seconds, gpu_time_ns, frame_time_ns, precision, error_bound });
         begun = Instant::now();
         bar.inc(1);
     }
@@ -171,7 +165,7 @@ pub fn run(args: &AnimateArgs) -> Result<()> {
     match drawn_all.err() {
         Some(error) if matches!(error.downcast_ref(), Some(TracerError::Stopped)) => {
             written?;
-            let advice = if Target::of(&args.output)?.is_many() {
+            let advice = if is_many {
                 "to go on: the same with --skip-existing"
             } else {
                 "one file has all or none; files of their own, frames/%04d.png, are kept"
@@ -216,84 +210,31 @@ pub fn run(args: &AnimateArgs) -> Result<()> {
     refuse_messages(&messages)
 }
 
-fn refused(what: &str) -> anyhow::Error {
-    TracerError::Refused(what.to_owned()).into()
-}
-
 /// Of the pictures that are asked for.
-fn numbers(scene: &Scene, args: &AnimateArgs) -> Result<RangeInclusive<u64>> {
-    // A time that is a whole number of pictures but for its rounding has that picture.
-    let last = (scene.duration_seconds() * args.fps * (1.0 + 1e-12)).floor() as u64;
-    match &args.frames {
-        None => Ok(0..=last),
-        Some(asked) if *asked.end() <= last => Ok(asked.clone()),
-        Some(asked) => {
-            let (first, end) = (asked.start(), asked.end());
-            let what = format!(
-                "--frames {first}..{end}: the animation takes {} s, which are pictures 0 to {last} at {} a second",
-                scene.duration_seconds(),
-                args.fps
-            );
-            Err(TracerError::Refused(what).into())
-        }
+fn numbers(duration_seconds: f64, args: &AnimateArgs) -> Result<RangeInclusive<u64>, TracerError> {
+    let last = last_number(duration_seconds, args.fps);
+    let asked = args.frames.clone().unwrap_or(0..=last);
+    let (first, end) = (*asked.start(), *asked.end());
+    if end > last {
+        return Err(TracerError::Refused(format!(
+            "--frames {first}..{end}: the animation takes {duration_seconds} s, which are pictures 0 to {last} at {} a \
+             second",
+            args.fps
+        )));
     }
+    if end - first >= MOST_PICTURES {
+        return Err(TracerError::Refused(format!(
+            "{} pictures: a run draws at most {MOST_PICTURES}; --frames A..B takes a part of them",
+            end - first + 1
+        )));
+    }
+    Ok(asked)
 }
 
-/// Draws a scene at one time after another: what is on the device is kept where it fits.
-struct Painter<'d> {
-    device: &'d Arc<Device>,
-    scene: Scene,
-    setting: RenderSettings,
-    size: [u32; 2],
-    limits: Limits,
-    tracer: Option<AnyTracer>,
-    warned: bool,
-}
-
-enum AnyTracer {
-    Exact(Tracer),
-    Statistical(Progressive),
-}
-
-impl<'d> Painter<'d> {
-    fn new(device: &'d Arc<Device>, scene: Scene, setting: RenderSettings, size: [u32; 2]) -> Self {
-        let limits = limits_of(device.description());
-        Self { device, scene, setting, size, limits, tracer: None, warned: false }
-    }
-
-    fn draw(&mut self, seconds: f64, listener: &Listener) -> Result<(Frame, Option<u64>, Drawn)> {
-        self.scene.go_to(seconds)?;
-        let scene = self.setting.shading.applied(&self.scene);
-        let plan = Plan::for_scene(&scene, &self.setting, self.size, &self.limits)?;
-        if let Some(warning) = plan.warning().filter(|_| !self.warned) {
-            eprintln!("warning: at {seconds} s: {warning}");
-            self.warned = true;
-        }
-        let settings = Settings::planned(&plan);
-        let drawn = Drawn { choice: settings.kernel.precision(), error_bound: plan.bounds.total() };
-        let is_statistical = self.setting.algorithm.description().is_statistical;
-        match &mut self.tracer {
-            None if is_statistical => {
-                self.tracer = Some(AnyTracer::Statistical(Progressive::new(self.device, &scene, &settings)?));
-            }
-            None => self.tracer = Some(AnyTracer::Exact(Tracer::new(self.device, &scene, &settings)?)),
-            Some(AnyTracer::Exact(tracer)) => tracer.set_scene(&scene, &settings)?,
-            Some(AnyTracer::Statistical(tracer)) => tracer.restart(&scene, &settings)?,
-        }
-        let (frame, gpu_time_ns) = match &mut self.tracer {
-            Some(AnyTracer::Exact(tracer)) => {
-                let mut frame = tracer.frame()?;
-                let gpu_time_ns = tracer.render(&mut frame, &mut |_| listener.keep_going())?;
-                (frame, gpu_time_ns)
-            }
-            Some(AnyTracer::Statistical(tracer)) => {
-                let gpu_time_ns = tracer.add(self.setting.samples, &mut || listener.keep_going())?;
-                (tracer.frame()?, gpu_time_ns)
-            }
-            None => return Err(TracerError::Stopped.into()),
-        };
-        Ok((frame, gpu_time_ns, drawn))
-    }
+/// Of the last picture that is not after the last keyframe. A time that is a whole number of pictures but for its
+/// rounding has that picture: quotient and product are off by an ulp each, 2⁻⁵² of a number.
+fn last_number(duration_seconds: f64, fps: f64) -> u64 {
+    (duration_seconds * fps * (1.0 + 4.0 * f64::EPSILON)).floor() as u64
 }
 
 /// Such as 7 or 0..119.
@@ -321,17 +262,12 @@ mod tests {
 
     #[test]
     fn a_last_keyframe_on_a_picture_is_drawn_however_its_time_is_rounded() {
-        let scene = |seconds: f64| {
-            let text = format!(
-                "[[animation]]\nfield = 'background'\nkeyframes = [{{ seconds = {seconds}, value = [0, 0, 0] }}]"
-            );
-            Scene::from_toml(&text).unwrap()
-        };
-        for n in 0..5000_u64 {
-            let rounded = n as f64 * 0.01;
-            let last = (scene(rounded).duration_seconds() * 100.0 * (1.0 + 1e-12)).floor() as u64;
-            assert_eq!(last, n);
+        for fps in [7.0, 24.0, 24000.0 / 1001.0, 30.0, 100.0] {
+            for number in 0..5000_u64 {
+                assert_eq!(last_number(number as f64 / fps, fps), number, "{fps}");
+            }
         }
+        assert_eq!((last_number(0.999, 1.0), last_number(0.29, 100.0), last_number(1e6, 1e9)), (0, 29, 1e15 as u64));
     }
 
     #[test]

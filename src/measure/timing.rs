@@ -99,6 +99,20 @@ impl TimedTracer {
         Ok(Self { frame: picture.frame()?, drawing: Drawing::Paths { picture, samples, next_seed: settings.seed } })
     }
 
+    /// Another scene, drawn at the same size; paths begin with the settings' seed again.
+    ///
+    /// # Errors
+    /// As of [`Tracer::new`].
+    pub fn set_scene(&mut self, scene: &Scene, settings: &Settings) -> Result<(), TracerError> {
+        match &mut self.drawing {
+            Drawing::Frame(tracer) => tracer.set_scene(scene, settings),
+            Drawing::Paths { picture, next_seed, .. } => {
+                *next_seed = settings.seed;
+                picture.restart(scene, settings)
+            }
+        }
+    }
+
     /// `keep_going` is asked after every tile and can stop the work there.
     pub fn draw(&mut self, keep_going: &mut dyn FnMut() -> ControlFlow<()>) -> Result<FrameTime, TracerError> {
         let start = Instant::now();

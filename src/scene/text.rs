@@ -19,6 +19,10 @@ pub(super) fn vector(value: DVec3) -> String {
     format!("[{}, {}, {}]", number(value.x), number(value.y), number(value.z))
 }
 
+pub(super) fn points([start, end]: [DVec3; 2]) -> String {
+    format!("[{}, {}]", vector(start), vector(end))
+}
+
 /// `text` on one line: control and invisible characters escaped, cut after about `longest` characters.
 pub(super) fn one_line(text: &str, longest: usize) -> String {
     let mut line = String::new();

@@ -198,7 +198,7 @@ pub(super) fn check_primitive(index: usize, primitive: &Primitive) -> Result<(),
             field.any_vector("rotation_degrees", *rotation_degrees)?;
         }
         Solid::Cylinder { ends, radius } => {
-            let shown = || format!("[{}, {}]", text::vector(ends[0]), text::vector(ends[1]));
+            let shown = || text::points(*ends);
             field.rule("ends", ends.iter().all(|end| is_finite_f32(*end)), FINITE, shown)?;
             field.rule("ends", ends[0] != ends[1], "must be two different points", shown)?;
             field.number("radius", *radius, POSITIVE, |x| x > 0.0)?;

@@ -109,7 +109,10 @@ fn every_kind_of_broken_animation_is_refused_by_name_and_line() {
         ("field = 'background'\nkeyframes = [{ value = [0, 0, 0] }]", "animation 1, keyframe 1: seconds is missing"),
         ("field = 'background'\nkeyframes = [{ seconds = 1 }]", "animation 1, keyframe 1: value is missing"),
         ("field = 'background'\nkeyframes = [{ seconds = 1, value = 'red' }]", "must be a number, an array of three"),
-        ("field = 'background'\nkeyframes = [{ seconds = 1, value = 2 }]", "line 6: animation 1, keyframe 1: value"),
+        (
+            "field = 'background'\nkeyframes = [{ seconds = 1, value = 2 }]",
+            "line 6: animation 1, keyframe 1: value = 2: must be an array of three numbers",
+        ),
         (
             "field = 'background'\nkeyframes = [{ seconds = 1, value = [0, 0, -1] }]",
             "background = [0, 0, -1]: must be 0",
@@ -157,7 +160,7 @@ fn what_is_wrong_only_between_keyframes_is_told_with_its_time() {
     assert_eq!(error, "at 1 s: primitive 1 (cylinder): ends = [[0, 0, 0], [0, 0, 0]]: must be two different points");
 }
 
-/// A hundred thousand keyframes, whether in one track or in many, and a million solids.
+/// A hundred thousand keyframes, whether in one track, in two of one part or in many, and a million solids.
 #[test]
 fn long_animations_are_read_in_no_time() {
     let keyframes = |count: u32| {
@@ -173,7 +176,10 @@ fn long_animations_are_read_in_no_time() {
         format!("{{\"primitives\": [{primitives}], \"animation\": [{}]}}", tracks.join(", "))
     };
     let start = Instant::now();
-    Scene::from_json(&scene(&[track(1, 100_000)])).unwrap();
+    // At half seconds, between those of the other.
+    let smooth = track(1, 100_000).replace(", \"value\"", ".5, \"value\"").replace("diffuse", "ambient");
+    let smooth = smooth.replace("\"keyframes\"", "\"interpolation\": \"catmull-rom\", \"keyframes\"");
+    Scene::from_json(&scene(&[track(1, 100_000), smooth])).unwrap();
     let many: Vec<_> = (1..=10_000).map(|primitive| track(primitive, 10)).collect();
     let mut scene = Scene::from_json(&scene(&many)).unwrap();
     assert_eq!(scene.animation[9_999].keyframes[3].value, Value::Number(0.5));

@@ -98,6 +98,8 @@ fn animate_refuses_what_it_cannot_do() {
     place.assert_refused(&animate("orbit", "a.png", &[]), 2, &["a.png", "frames/%04d.png"]);
     place.assert_refused(&animate("orbit", "a.gif", &[]), 2, &["a.gif", ".apng, .mp4 or .webm"]);
     place.assert_refused(&animate("orbit", "%d.png", &["--frames", "0..21"]), 2, &["pictures 0 to 20 at 5 a second"]);
+    let too_many = ["animate", "orbit", "-o", "%d.png", "--fps", "1e9"];
+    place.assert_refused(&too_many, 2, &["4000000001 pictures", "at most 1000000", "--frames A..B"]);
     place.assert_refused(&animate("orbit", "%d.png", &["--frames", "3..1"]), 2, &["--frames", "0..119"]);
     place.assert_refused(&animate("orbit", "a.apng", &["--skip-existing"]), 2, &["--skip-existing is for files"]);
     place.assert_refused(&animate("orbit", "%d.png", &["--algorithm", "reference"]), 2, &["on a device"]);

@@ -85,8 +85,8 @@ fn numbered(name: &str) -> Option<Target> {
 
 /// What is being written.
 pub struct Film {
-    pictures: Option<SyncSender<Numbered>>,
-    writer: Option<JoinHandle<Result<Reel>>>,
+    pictures: SyncSender<Numbered>,
+    writer: JoinHandle<Result<Reel>>,
 }
 
 /// What the pictures are written to.
@@ -119,21 +119,21 @@ impl Film {
         };
         let (pictures, waiting) = sync_channel(WAITING);
         let writer = thread::Builder::new().name("film".to_owned()).spawn(move || reel.expose(&waiting));
-        Ok(Self { pictures: Some(pictures), writer: Some(writer.context("no thread to write pictures with")?) })
+        Ok(Self { pictures, writer: writer.context("no thread to write pictures with")? })
     }
 
     /// Takes the next picture; false where the ones before could not be written, which [`Film::end`] says.
-    pub fn take(&mut self, picture: Numbered) -> bool {
-        self.pictures.as_ref().is_some_and(|pictures| pictures.send(picture).is_ok())
+    pub fn take(&self, picture: Numbered) -> bool {
+        self.pictures.send(picture).is_ok()
     }
 
     /// When all that were taken are written. One file of all pictures is kept only if they are all.
     ///
     /// # Errors
     /// Something could not be written.
-    pub fn end(mut self, has_all: bool) -> Result<()> {
-        self.pictures = None;
-        let writer = self.writer.take().ok_or_else(|| anyhow!("the film was ended before"))?;
+    pub fn end(self, has_all: bool) -> Result<()> {
+        let Self { pictures, writer } = self;
+        drop(pictures);
         let reel = writer.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))?;
         if has_all { reel.finish() } else { reel.discard() }
     }
@@ -149,6 +149,9 @@ impl Reel {
         // Players want colours of 2x2 pixels, and so sides that are even.
         command.args(["-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-f", container]);
         command.arg(file.temporary_path());
+        // Ctrl-C is for this program, which ends FFmpeg itself.
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
         let child = command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
         let ffmpeg = child.map_err(|error| match error.kind() {
             io::ErrorKind::NotFound => anyhow!(
@@ -200,7 +203,7 @@ impl Reel {
     /// Keeps nothing of one file of all pictures.
     fn discard(self) -> Result<()> {
         if let Self::Video { mut ffmpeg, .. } = self {
-            // It may have ended by itself, of the same Ctrl-C.
+            // It may have ended by itself.
             let _ = ffmpeg.kill();
             ffmpeg.wait().context("FFmpeg")?;
         }

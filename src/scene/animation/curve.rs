@@ -39,11 +39,17 @@ pub(super) fn at(keyframes: &[Keyframe], interpolation: Interpolation, kind: Kin
     if after == 0 || after == keyframes.len() || last.seconds == seconds {
         return last.value;
     }
+    // What stays is not to be rounded.
+    if interpolation == Interpolation::Linear && last.value == keyframes[after].value {
+        return last.value;
+    }
     let span = Span { keyframes, from, interpolation, seconds };
     match kind {
         Kind::Free => pair_as(last.value, span.value(pair, mix)),
         Kind::Limited => {
-            let values = || keyframes.iter().map(|keyframe| pair(keyframe.value));
+            // Of the four that a cubic goes by at most: the limits of fields are of intervals.
+            let near = &keyframes[from.saturating_sub(1)..keyframes.len().min(from + 3)];
+            let values = || near.iter().map(|keyframe| pair(keyframe.value));
             let least = values().reduce(|a, b| [0, 1].map(|i| a[i].min(b[i]))).unwrap_or_default();
             let greatest = values().reduce(|a, b| [0, 1].map(|i| a[i].max(b[i]))).unwrap_or_default();
             let value = span.value(pair, mix);
@@ -74,10 +80,7 @@ impl Span<'_> {
     fn value<T: Copy + PartialEq>(&self, of: impl Fn(Value) -> T, mix: impl Fn(T, T, f64) -> T) -> T {
         let &Self { keyframes, from, interpolation, seconds } = self;
         let knot = |keyframe: &Keyframe| (keyframe.seconds, of(keyframe.value));
-        let between = |a: (f64, T), b: (f64, T)| {
-            // A value that stays is not to be rounded.
-            if a.1 == b.1 { a.1 } else { mix(a.1, b.1, (seconds - a.0) / (b.0 - a.0)) }
-        };
+        let between = |a: (f64, T), b: (f64, T)| mix(a.1, b.1, (seconds - a.0) / (b.0 - a.0));
         let (start, end) = (knot(&keyframes[from]), knot(&keyframes[from + 1]));
         if interpolation == Interpolation::Linear {
             return between(start, end);

@@ -7,13 +7,13 @@
 mod curve;
 mod slot;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 use std::mem;
 
 use glam::DVec3;
 
 use super::validate::{Place, Violation, check_part};
-use super::{Scene, SceneError};
+use super::{Scene, SceneError, text};
 pub use curve::Interpolation;
 pub(crate) use slot::fields;
 use slot::{LOOK_AT, slot};
@@ -74,6 +74,17 @@ pub enum Value {
     Points([DVec3; 2]),
 }
 
+impl Value {
+    /// As scene files and messages have it.
+    pub(super) fn text(self) -> String {
+        match self {
+            Self::Number(value) => text::number(value),
+            Self::Vector(value) => text::vector(value),
+            Self::Points(value) => text::points(value),
+        }
+    }
+}
+
 impl Scene {
     /// Time of the last keyframe, s; 0 without any.
     pub fn duration_seconds(&self) -> f64 {
@@ -89,9 +100,8 @@ impl Scene {
         let tracks = mem::take(&mut self.animation);
         apply(tracks.iter(), self, seconds);
         self.animation = tracks;
-        let mut seen = HashSet::new();
-        for part in self.animation.iter().map(|track| track.part).filter(|part| seen.insert(*part)) {
-            check_part(self, part).map_err(|violation| SceneError::refused(format!("at {seconds} s: {violation}")))?;
+        for Track { part, .. } in &self.animation {
+            check_part(self, *part).map_err(|violation| SceneError::refused(format!("at {seconds} s: {violation}")))?;
         }
         Ok(())
     }
@@ -169,8 +179,8 @@ pub(super) fn check(scene: &Scene) -> Result<(), Violation<'_>> {
             if place > 0 && seconds <= keyframes[place - 1].seconds {
                 return wrong("seconds", seconds.to_string(), "must be later than that of the keyframe before");
             }
-            if !slot.takes(&keyframe.value) {
-                return wrong("value", format!("{:?}", keyframe.value), "is not of this field's kind");
+            if let Err(rule) = slot.check(keyframe.value) {
+                return wrong("value", keyframe.value.text(), rule);
             }
         }
         let siblings = of_part.entry(part).or_default();

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::{Part, Value};
-use crate::scene::validate::unit;
+use crate::scene::validate::{FINITE, unit};
 use crate::scene::{Camera, Material, Scene, Solid, SolidKind};
 
 /// A point: the camera looks at it from wherever it is.
@@ -48,7 +48,7 @@ pub(crate) fn fields(part: Part, kind: Option<SolidKind>) -> Vec<&'static str> {
 /// How values of a field go over into each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Kind {
-    /// A number, sizes or a colour, which have limits: no value between keyframes is beyond those of all keyframes.
+    /// A number, sizes or a colour, which have limits: no value is beyond those of the keyframes around it.
     Limited,
     /// Points, each component by itself.
     Free,
@@ -144,14 +144,23 @@ impl Slot<'_> {
         }
     }
 
-    /// Whether a value is of its type, and finite.
-    pub fn takes(&self, value: &Value) -> bool {
-        match (self, value) {
-            (Self::Number(_) | Self::Optional(_), Value::Number(number)) => number.is_finite(),
-            (Self::Points(_), Value::Points(points)) => points.iter().all(|point| point.is_finite()),
-            (Self::Number(_) | Self::Optional(_) | Self::Points(_), _) => false,
-            (_, Value::Vector(vector)) => vector.is_finite(),
-            _ => false,
+    /// # Errors
+    /// The rule, where a value is not of its type or not finite.
+    pub fn check(&self, value: Value) -> Result<(), &'static str> {
+        let (is_of_type, rule) = match self {
+            Self::Number(_) | Self::Optional(_) => (matches!(value, Value::Number(_)), "must be a number"),
+            Self::Points(_) => (matches!(value, Value::Points(_)), "must be an array of two points"),
+            _ => (matches!(value, Value::Vector(_)), "must be an array of three numbers"),
+        };
+        let is_finite = match value {
+            Value::Number(number) => number.is_finite(),
+            Value::Vector(vector) => vector.is_finite(),
+            Value::Points(points) => points.iter().all(|point| point.is_finite()),
+        };
+        match (is_of_type, is_finite) {
+            (false, _) => Err(rule),
+            (true, false) => Err(FINITE),
+            (true, true) => Ok(()),
         }
     }
 

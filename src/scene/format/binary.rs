@@ -27,7 +27,7 @@ use glam::DVec3;
 
 use super::markup::Markup;
 use super::tree::Document;
-use super::{Fault, decode, write};
+use super::{Fault, JSON, decode, write};
 use crate::scene::validate::{Place, Violation, check_light_count, check_primitive_count, unit};
 use crate::scene::{Camera, Light, Material, Primitive, Projection, Scene, Solid, SolidKind};
 
@@ -276,6 +276,10 @@ impl<'b> Reader<'b> {
             Scene { camera, background, ambient_light, max_depth, lights, primitives, animation: Vec::new() };
         if self.version >= VERSION_OF_ANIMATION {
             let text = self.text("its animation")?;
+            if text.len() as u64 > JSON.largest {
+                let what = format!("its animation has {} bytes, and at most {} are read", text.len(), JSON.largest);
+                return Err(self.fault(text.len(), what));
+            }
             let start = self.offset - text.len();
             let moved = Fault::moved_by(start);
             scene.animation =

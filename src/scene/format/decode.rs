@@ -36,6 +36,9 @@ pub(super) fn animation_of(root: Node<'_>, scene: &Scene) -> Result<Vec<Track>, 
 }
 
 fn animation(fields: &Fields<'_>, scene: &Scene) -> Result<Vec<Track>, Fault> {
+    if fields.get("animation").is_none() {
+        return Ok(Vec::new());
+    }
     let names = UniqueNames::of(&scene.primitives);
     let track = |index, node| track(index, node, scene, &names);
     Ok(fields.list("animation", |_| Ok(()), track)?.unwrap_or_default())

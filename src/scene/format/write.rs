@@ -6,8 +6,8 @@ use glam::DVec3;
 
 use super::markup::Markup;
 use super::names::UniqueNames;
-use crate::scene::text::{number, quoted, vector};
-use crate::scene::{Camera, Interpolation, Keyframe, Light, Material, Part, Primitive, Scene, Solid, Track, Value};
+use crate::scene::text::{number, points, quoted, vector};
+use crate::scene::{Camera, Interpolation, Keyframe, Light, Material, Part, Primitive, Scene, Solid, Track};
 
 impl Scene {
     /// The scene as TOML; reads back to the bit if the scene is valid.
@@ -105,7 +105,7 @@ fn solid_fields(solid: &Solid) -> Vec<Field> {
             ("rotation_degrees", vector(*rotation_degrees)),
         ],
         Solid::Cylinder { ends, radius } => {
-            vec![("ends", points(ends)), ("radius", number(*radius))]
+            vec![("ends", points(*ends)), ("radius", number(*radius))]
         }
         Solid::Cone { apex, axis, height, half_angle_degrees } => vec![
             ("apex", vector(*apex)),
@@ -113,18 +113,6 @@ fn solid_fields(solid: &Solid) -> Vec<Field> {
             ("height", number(*height)),
             ("half_angle_degrees", number(*half_angle_degrees)),
         ],
-    }
-}
-
-fn points([start, end]: &[DVec3; 2]) -> String {
-    format!("[{}, {}]", vector(*start), vector(*end))
-}
-
-fn value_text(value: Value) -> String {
-    match value {
-        Value::Number(value) => number(value),
-        Value::Vector(value) => vector(value),
-        Value::Points(value) => points(&value),
     }
 }
 
@@ -165,7 +153,7 @@ impl Markup {
             fields.push(("interpolation", quoted(track.interpolation.name())));
         }
         let keyframe = |keyframe: &Keyframe| {
-            self.table(&[("seconds", number(keyframe.seconds)), ("value", value_text(keyframe.value))])
+            self.table(&[("seconds", number(keyframe.seconds)), ("value", keyframe.value.text())])
         };
         let keyframes: Vec<String> = track.keyframes.iter().map(keyframe).collect();
         fields.push(("keyframes", format!("[{}]", keyframes.join(", "))));
