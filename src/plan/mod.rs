@@ -182,6 +182,11 @@ impl Plan {
         size: [u32; 2],
         limits: &Limits,
     ) -> Result<Self, PlanError> {
+        // A thread that is not of the pool waits for one to wake at everything that is done by several: here once.
+        rayon::scope(|_| Self::decide(scene, settings, size, limits))
+    }
+
+    fn decide(scene: &Scene, settings: &RenderSettings, size: [u32; 2], limits: &Limits) -> Result<Self, PlanError> {
         settings.check()?;
         if size.contains(&0) {
             let [width, height] = size;

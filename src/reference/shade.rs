@@ -1,5 +1,7 @@
 //! Equation 1.19 of the course work (docs/light-model.md).
 
+use std::iter;
+
 use glam::DVec3;
 
 use super::camera::unit;
@@ -73,6 +75,19 @@ impl<'a> World<'a> {
         }
         let first_hit = nearest.map_or(BACKGROUND, |hit| hit.primitive);
         Pixel { color, first_hit, path: path.signature() }
+    }
+
+    /// What a primary ray of unit direction hits and, mirrored by each hit, the next; in the world frame, as many as
+    /// the scene has generations.
+    pub fn mirrored_path(&self, primary: Ray) -> impl Iterator<Item = Hit> {
+        let hit = |ray: &Ray, origin_surface| Some((ray.direction, self.solids.nearest(ray, origin_surface)?));
+        let hits = iter::successors(hit(&self.relative(&primary), OriginSurface::Free), move |(direction, last)| {
+            let is_mirror = self.scene.primitives[last.primitive as usize].material.reflection() > 0.0;
+            let ray = Ray { origin: last.point, direction: unit(reflected(*direction, last.normal)) };
+            is_mirror.then(|| hit(&ray, last.origin_surface())).flatten()
+        });
+        let in_world = |(_, hit): (_, Hit)| Hit { point: hit.point + self.origin, ..hit };
+        hits.take(self.scene.max_depth as usize).map(in_world)
     }
 
     /// A ray of the world frame as seen from the origin of all that is kept here.
