@@ -1,6 +1,8 @@
 //! `zerkalo animate`: pictures of a scene that moves.
 
 use std::fs;
+use std::path::Path;
+use std::process::Command;
 use std::time::Duration;
 
 use zerkalo::scene::gallery;
@@ -50,6 +52,33 @@ fn what_is_there_and_whole_is_not_drawn_again_and_what_was_cut_off_is() {
     let other_size = ["animate", "dolly", "-o", "%d.png", "--size", "24x12", "--fps", "5", "--frames", "2..4"];
     let told = place.json(&[&other_size[..], &["--skip-existing"]].concat());
     assert_eq!(told["skipped"].as_u64(), Some(0), "pictures of another size are others");
+}
+
+#[test]
+fn tasks_of_a_slurm_array_share_the_pictures_without_rest() {
+    let place = Place::new();
+    place.run_well(&animate("orbit", "whole/%04d.png", &["--frames", "0..8"]));
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/animate.slurm");
+    let programs = Path::new(env!("CARGO_BIN_EXE_zerkalo")).parent().unwrap();
+    let path = format!("{}:{}", programs.display(), std::env::var("PATH").unwrap());
+    // More tasks than one, whose numbers need not begin at 0; the last of two that share one picture has none.
+    for (pictures, first_task, tasks) in [("9", 3, 4), ("1", 0, 2)] {
+        for task in first_task..first_task + tasks {
+            let mut command = Command::new("bash");
+            command.args([script, "orbit", pictures, pictures, "--validate"]).args(SMALL);
+            command.current_dir(place.path("")).env("PATH", &path).env("SLURM_ARRAY_TASK_ID", task.to_string());
+            command.env("SLURM_ARRAY_TASK_MIN", first_task.to_string());
+            command.env("SLURM_ARRAY_TASK_COUNT", tasks.to_string());
+            let output = command.output().unwrap();
+            assert!(output.status.success(), "{output:?}");
+        }
+        let names = || fs::read_dir(place.path(pictures)).unwrap().map(|entry| entry.unwrap().file_name());
+        assert_eq!(names().count().to_string(), pictures);
+        for name in names() {
+            let read = |folder| fs::read(place.path(folder).join(&name)).unwrap();
+            assert_eq!(read(pictures), read("whole"), "{name:?}");
+        }
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ use std::process::Command;
 
 #[test]
 fn scripts_pass_shellcheck() {
-    for script in ["setup.sh", ".ci/run", "tests/distributions/run"] {
+    for script in ["setup.sh", ".ci/run", "tests/distributions/run", "docs/animate.slurm"] {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(script);
         let check = Command::new("shellcheck")
             .arg(path)
