@@ -22,6 +22,7 @@ use super::{
 use crate::algorithm::{Algorithm, Precision};
 use crate::gpu::Device;
 use crate::measure::median;
+use crate::scene::picture_at;
 use crate::tracer::TracerError;
 
 /// Pictures of one run, so that what is told of them fits in memory.
@@ -212,7 +213,7 @@ pub fn run(args: &AnimateArgs) -> Result<()> {
 
 /// Of the pictures that are asked for.
 fn numbers(duration_seconds: f64, args: &AnimateArgs) -> Result<RangeInclusive<u64>, TracerError> {
-    let last = last_number(duration_seconds, args.fps);
+    let last = picture_at(duration_seconds, args.fps);
     let asked = args.frames.clone().unwrap_or(0..=last);
     let (first, end) = (*asked.start(), *asked.end());
     if end > last {
@@ -229,12 +230,6 @@ fn numbers(duration_seconds: f64, args: &AnimateArgs) -> Result<RangeInclusive<u
         )));
     }
     Ok(asked)
-}
-
-/// Of the last picture that is not after the last keyframe. A time that is a whole number of pictures but for its
-/// rounding has that picture: quotient and product are off by an ulp each, 2⁻⁵² of a number.
-fn last_number(duration_seconds: f64, fps: f64) -> u64 {
-    (duration_seconds * fps * (1.0 + 4.0 * f64::EPSILON)).floor() as u64
 }
 
 /// Such as 7 or 0..119.
@@ -258,16 +253,6 @@ mod tests {
         assert!(
             ["", "..", "3..", "..3", "3..2", "-1", "1.5", "0..=3", "a"].iter().all(|bad| parse_frames(bad).is_err())
         );
-    }
-
-    #[test]
-    fn a_last_keyframe_on_a_picture_is_drawn_however_its_time_is_rounded() {
-        for fps in [7.0, 24.0, 24000.0 / 1001.0, 30.0, 100.0] {
-            for number in 0..5000_u64 {
-                assert_eq!(last_number(number as f64 / fps, fps), number, "{fps}");
-            }
-        }
-        assert_eq!((last_number(0.999, 1.0), last_number(0.29, 100.0), last_number(1e6, 1e9)), (0, 29, 1e15 as u64));
     }
 
     #[test]

@@ -20,7 +20,7 @@ mod text;
 mod validate;
 
 pub(crate) use animation::fields as animated_fields;
-pub use animation::{Interpolation, Keyframe, Part, Track, Value};
+pub use animation::{Interpolation, Keyframe, Part, Track, Value, picture_at};
 pub use bounding_sphere::{BoundingSphere, farthest_coordinate};
 pub use bounds::Bounds;
 pub use camera::{Camera, Projection};

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use super::own_kernel::OwnKernel;
 use super::preferences::Preferences;
+use super::timeline::Timeline;
 use crate::algorithm::Description;
 use crate::scene::{Light, Material, Projection, Solid, SolidKind};
 use crate::settings::sampling::Sampling;
@@ -104,6 +105,8 @@ pub enum Action {
     SetShading(Shading),
     /// Whether pictures are traced anew though nothing changes.
     SetContinuous(bool),
+    /// As a whole; numbers out of range are brought into it. In a scene that does not move it does nothing.
+    SetTimeline(Timeline),
     /// Whether the sheet of keys is to be seen.
     ShowHelp(bool),
 }

@@ -1,11 +1,13 @@
 //! The scene being edited, with what is selected in it, where it is kept, and how to go back.
 
+use std::borrow::Cow;
 use std::mem;
 use std::path::{Path, PathBuf};
 
 use super::history::{Field, History, Snapshot, is_same_work};
+use super::timeline::Timeline;
 use crate::scene::format::SceneFormat;
-use crate::scene::{Camera, Primitive, Scene, SceneError};
+use crate::scene::{Camera, Part, Primitive, Scene, SceneError};
 
 /// Its scene is always valid and its selection always a primitive of the scene.
 #[derive(Debug)]
@@ -16,6 +18,7 @@ pub struct Document {
     /// What its file holds, or what it began with; none if only a crash left it.
     saved: Option<Scene>,
     opening_camera: Camera,
+    timeline: Timeline,
 }
 
 impl Document {
@@ -35,25 +38,86 @@ impl Document {
             history: History::default(),
             path,
             saved: None,
+            timeline: Timeline::default(),
         }
     }
 
-    /// Always valid; its camera is the window's.
+    /// What is edited, saved and undone: always valid and without a time. Its camera is the window's where that is not
+    /// the animation's.
     pub fn scene(&self) -> &Scene {
         &self.current.scene
     }
 
     /// Moving the camera is not an edit: it is neither undone nor a reason to ask before closing. Its angle and its
     /// projection are edits and do not go this way.
+    ///
+    /// An animated camera stays where the user takes it.
     pub fn camera_mut(&mut self) -> &mut Camera {
+        if self.is_camera_followed() {
+            let Camera { position, direction, up, .. } = self.shown_scene().camera;
+            let camera = &mut self.current.scene.camera;
+            (camera.position, camera.direction, camera.up) = (position, direction, up);
+            self.timeline.follows_camera = false;
+        }
         &mut self.current.scene.camera
     }
 
     /// Back to where the camera was when the scene was opened.
     pub fn reset_camera(&mut self) {
-        let Camera { position, direction, up, vertical_fov_degrees: _, projection: _ } = &self.opening_camera;
-        let camera = &mut self.current.scene.camera;
-        (camera.position, camera.direction, camera.up) = (*position, *direction, *up);
+        let Camera { position, direction, up, .. } = self.opening_camera;
+        let camera = self.camera_mut();
+        (camera.position, camera.direction, camera.up) = (position, direction, up);
+    }
+
+    /// Which time is shown.
+    pub fn timeline(&self) -> Timeline {
+        self.timeline
+    }
+
+    /// Numbers out of range are brought into it; where nothing is animated there is no time.
+    ///
+    /// # Errors
+    /// The scene may not be what it would be then; the time stays as it was and stands still.
+    pub(super) fn set_timeline(&mut self, timeline: Timeline) -> Result<(), SceneError> {
+        let scene = self.scene();
+        if scene.animation.is_empty() {
+            self.timeline = Timeline::default();
+            return Ok(());
+        }
+        let timeline = timeline.clamped(scene.duration_seconds());
+        if let Err(error) = timeline.picture_seconds().map_or(Ok(()), |seconds| scene.clone().go_to(seconds)) {
+            self.timeline.is_playing = false;
+            return Err(error);
+        }
+        self.timeline = timeline;
+        Ok(())
+    }
+
+    /// The scene at the time that is shown, with the camera that is looked through; without a time, or where an edit left
+    /// none that may be at that time, as it is.
+    pub fn shown_scene(&self) -> Cow<'_, Scene> {
+        let Some(seconds) = self.timeline.picture_seconds() else { return Cow::Borrowed(self.scene()) };
+        let mut scene = self.scene().clone();
+        if scene.go_to(seconds).is_err() {
+            return Cow::Borrowed(self.scene());
+        }
+        if !self.timeline.follows_camera {
+            let Camera { position, direction, up, .. } = self.scene().camera;
+            (scene.camera.position, scene.camera.direction, scene.camera.up) = (position, direction, up);
+        }
+        Cow::Owned(scene)
+    }
+
+    /// Whether the animation moves or turns the camera.
+    pub fn is_camera_animated(&self) -> bool {
+        let moves = |field| ["position", "direction", "look_at", "up"].contains(&field);
+        let mut fields =
+            self.scene().animation.iter().filter(|track| track.part == Part::Scene).map(|track| track.field);
+        fields.any(|field| field.strip_prefix("camera.").is_some_and(moves))
+    }
+
+    fn is_camera_followed(&self) -> bool {
+        self.timeline.follows_camera && self.timeline.seconds.is_some() && self.is_camera_animated()
     }
 
     /// The file it was opened from or last saved to.
@@ -159,7 +223,7 @@ mod tests {
     use glam::DVec3;
 
     use super::*;
-    use crate::scene::SolidKind;
+    use crate::scene::{Interpolation, Keyframe, SolidKind, Track, Value, gallery};
 
     fn document_of(kinds: &[SolidKind]) -> Document {
         let primitives = kinds.iter().map(|kind| Primitive::course_default(*kind)).collect();
@@ -276,6 +340,67 @@ mod tests {
         document.redo();
         document.reset_camera();
         assert_eq!(document.scene().camera, Camera { vertical_fov_degrees: 60.0, ..Camera::default() });
+    }
+
+    fn moving() -> Document {
+        Document::new(gallery::scene("dolly").unwrap(), None)
+    }
+
+    fn at(seconds: f64) -> Timeline {
+        Timeline { seconds: Some(seconds), ..Timeline::default() }
+    }
+
+    #[test]
+    fn the_scene_is_shown_at_the_time_and_saved_without_it() {
+        let mut document = moving();
+        assert_eq!(*document.shown_scene(), *document.scene());
+        document.set_timeline(at(1.0)).unwrap();
+        let mut then = document.scene().clone();
+        then.go_to(1.0).unwrap();
+        assert_eq!(*document.shown_scene(), then);
+        assert_eq!(*document.scene(), gallery::scene("dolly").unwrap());
+        assert!(!document.has_unsaved_changes() && !document.can_undo());
+        document.edit(Some(Field::Background), |scene| scene.background = DVec3::ONE).unwrap();
+        assert_eq!(document.shown_scene().background, DVec3::ONE, "an edit is seen at once");
+        assert_eq!(document.shown_scene().camera, then.camera);
+    }
+
+    #[test]
+    fn the_user_s_camera_takes_an_animated_one_over_where_it_is_and_can_give_it_back() {
+        let mut document = moving();
+        document.set_timeline(at(1.0)).unwrap();
+        let from = document.shown_scene().camera.clone();
+        document.camera_mut().position.y += 0.5;
+        assert_eq!(document.scene().camera, Camera { position: from.position + DVec3::Y * 0.5, ..from.clone() });
+        assert_eq!(document.shown_scene().camera, document.scene().camera);
+        document.set_timeline(at(1.0)).unwrap();
+        assert_eq!(document.shown_scene().camera, from, "the animation's again");
+        document.reset_camera();
+        assert_eq!(document.shown_scene().camera, gallery::scene("dolly").unwrap().camera);
+    }
+
+    #[test]
+    fn a_time_at_which_a_scene_may_not_be_is_refused() {
+        // The ends of a cylinder change places and meet half way.
+        let keyframes = [-1.0, 1.0].map(|x| {
+            let value = Value::Points([DVec3::X * x, DVec3::X * -x]);
+            Keyframe { seconds: 1.0 + x, value }
+        });
+        let ends = Track {
+            part: Part::Primitive(0),
+            field: "ends",
+            interpolation: Interpolation::Linear,
+            keyframes: keyframes.to_vec(),
+        };
+        let primitives = vec![Primitive::course_default(SolidKind::Cylinder)];
+        let scene = Scene { primitives, animation: vec![ends], ..Scene::default() };
+        let mut document = Document::new(scene, None);
+        document.set_timeline(Timeline { is_playing: true, ..at(0.5) }).unwrap();
+        assert!(document.set_timeline(Timeline { is_playing: true, ..at(1.0) }).is_err());
+        assert_eq!(document.timeline(), at(0.5), "it stands still");
+        let mut still = document_of(&[]);
+        still.set_timeline(at(1.0)).unwrap();
+        assert_eq!(still.timeline(), Timeline::default());
     }
 
     #[test]

@@ -31,6 +31,7 @@ mod session;
 mod shader_watch;
 pub mod state;
 pub mod text;
+pub mod timeline;
 
 pub use app::{Stopper, ViewerError, run};
 pub use document::Document;

@@ -41,6 +41,8 @@ pub struct Observation {
     pub primitives: usize,
     pub lights: usize,
     pub selection: Option<usize>,
+    /// Of the picture shown, from the animation's start; none where the scene is shown as its file has it.
+    pub seconds: Option<f64>,
     pub camera_position: [f64; 3],
     pub camera_direction: [f64; 3],
     pub has_unsaved_changes: bool,
@@ -75,6 +77,7 @@ impl Observation {
     /// What the state alone says; the rest is for the caller to fill in.
     pub fn of(state: &State, shown: &Shown, pixels_per_point: f32) -> Self {
         let document = &state.document;
+        let camera = &document.shown_scene().camera;
         let corner = shown.picture.min * pixels_per_point;
         Self {
             window: [0, 0],
@@ -89,8 +92,9 @@ impl Observation {
             primitives: document.scene().primitives.len(),
             lights: document.scene().lights.len(),
             selection: document.selection(),
-            camera_position: document.scene().camera.position.to_array(),
-            camera_direction: document.scene().camera.direction.to_array(),
+            seconds: document.timeline().picture_seconds(),
+            camera_position: camera.position.to_array(),
+            camera_direction: camera.direction.to_array(),
             has_unsaved_changes: document.has_unsaved_changes(),
             file: document.path().map(|path| path.display().to_string()),
             dialog: state.dialog.as_ref().map(|dialog| format!("{dialog:?}")),

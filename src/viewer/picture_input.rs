@@ -61,12 +61,12 @@ impl PictureInput {
         }
     }
 
-    /// The cursor moves, anywhere.
-    pub fn move_to(&mut self, cursor: DVec2, camera: &mut Camera, is_inverted: bool) {
+    /// The cursor moves, anywhere; the camera is taken where it moves, too.
+    pub fn move_to<'c>(&mut self, cursor: DVec2, camera: impl FnOnce() -> &'c mut Camera, is_inverted: bool) {
         let pixels = cursor - std::mem::replace(&mut self.cursor, cursor);
         match self.gesture.map(|(gesture, _)| gesture) {
-            Some(Gesture::Look) => camera_motion::look(camera, pixels, is_inverted),
-            Some(Gesture::Orbit(pivot)) => camera_motion::orbit(camera, pivot, pixels),
+            Some(Gesture::Look) => camera_motion::look(camera(), pixels, is_inverted),
+            Some(Gesture::Orbit(pivot)) => camera_motion::orbit(camera(), pivot, pixels),
             Some(Gesture::Click(_)) | None => {}
         }
     }
@@ -111,7 +111,7 @@ mod tests {
     use super::*;
 
     fn moved(input: &mut PictureInput, camera: &mut Camera, x: f64, y: f64) {
-        input.move_to(DVec2::new(x, y), camera, false);
+        input.move_to(DVec2::new(x, y), || camera, false);
     }
 
     #[test]

@@ -6,11 +6,13 @@ use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::mem;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use super::action::{Action, Effect, Kernel, UnsavedAnswer};
 use super::document::Document;
 use super::edits::Refusal;
 use super::preferences::Preferences;
+use super::timeline::Timeline;
 use crate::frame::FileFormat;
 use crate::scene::format::{Note, Reading};
 use crate::scene::{Scene, gallery};
@@ -106,7 +108,11 @@ impl State {
 
     /// The scene as a kernel draws it: by [`Self::shading_by`].
     pub fn shaded_scene(&self, kernel: Kernel) -> Cow<'_, Scene> {
-        self.shading_by(kernel).applied(self.document.scene())
+        let shading = self.shading_by(kernel);
+        match self.document.shown_scene() {
+            Cow::Borrowed(scene) => shading.applied(scene),
+            Cow::Owned(scene) => Cow::Owned(shading.applied(&scene).into_owned()),
+        }
     }
 
     /// How finely the accurate kernels trace once nothing changes.
@@ -153,6 +159,18 @@ impl State {
     /// Shows what went wrong outside the state, after the dialog that is open.
     pub fn report(&mut self, failure: impl ToString) {
         self.say(Message::failure(failure));
+    }
+
+    /// Time goes on by so much, where it is played; what the scene may not be then ends that, and is said.
+    pub fn play(&mut self, elapsed: Duration) {
+        let now = self.document.timeline();
+        self.set_timeline(now.after(elapsed, self.document.scene().duration_seconds()));
+    }
+
+    fn set_timeline(&mut self, timeline: Timeline) {
+        if let Err(error) = self.document.set_timeline(timeline) {
+            self.say(Message::failure(error));
+        }
     }
 
     /// What the dialog leaves to be asked.
@@ -241,6 +259,7 @@ impl State {
                 (self.preferences.samples, self.scale) = (samples, scale);
             }
             Action::SetContinuous(is_continuous) => self.is_continuous = is_continuous,
+            Action::SetTimeline(timeline) => self.set_timeline(timeline),
             Action::ShowHelp(is_shown) => self.is_help_shown = is_shown,
         }
         Vec::new()

@@ -23,6 +23,7 @@ pub struct Words {
     pub(super) groups: GroupWords,
     /// Words of the modal dialogs.
     pub dialogs: DialogWords,
+    pub(super) timeline: TimelineWords,
     pub(super) help: HelpWords,
 
     /// Singular, as numbered names begin: «Сфера1».
@@ -264,12 +265,30 @@ pub struct DialogWords {
     pub(super) keep: &'static str,
 }
 
+/// Words of the bar under a scene that moves.
+#[derive(Debug)]
+pub(super) struct TimelineWords {
+    pub(super) title: &'static str,
+    pub(super) play: &'static str,
+    pub(super) pause: &'static str,
+    /// Button that shows the scene as its file has it.
+    pub(super) stop: &'static str,
+    pub(super) stop_hint: &'static str,
+    pub(super) time: &'static str,
+    /// Between a time and how long all takes.
+    pub(super) of: &'static str,
+    pub(super) seconds: &'static str,
+    pub(super) rate: &'static str,
+    pub(super) follows_camera: &'static str,
+    pub(super) follows_camera_hint: &'static str,
+}
+
 /// Words of the sheet of keys.
 #[derive(Debug)]
 pub(super) struct HelpWords {
     pub(super) title: &'static str,
     /// What to press, what comes of it.
-    pub(super) rows: [(&'static str, &'static str); 16],
+    pub(super) rows: [(&'static str, &'static str); 17],
 }
 
 impl Language {

@@ -5,5 +5,6 @@ mod fields;
 mod files;
 mod hands;
 mod primitives;
+mod timeline;
 mod widgets;
 mod window;

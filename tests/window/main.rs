@@ -12,5 +12,6 @@ mod fps;
 mod geometry;
 mod pictures;
 mod sizes;
+mod timeline;
 mod timing;
 mod validation;

@@ -136,6 +136,12 @@ impl Scene {
     }
 }
 
+/// Number of the last picture that is not after a time, of so many a second from 0 on. A time that is a whole number of
+/// pictures but for its rounding has that picture: quotient and product are off by an ulp each, 2⁻⁵² of a number.
+pub fn picture_at(seconds: f64, pictures_a_second: f64) -> u64 {
+    (seconds * pictures_a_second * (1.0 + 4.0 * f64::EPSILON)).floor() as u64
+}
+
 /// What `other` is counted as when `index` is gone.
 fn index_without(index: usize, other: usize) -> Option<usize> {
     (other != index).then(|| other - usize::from(other > index))
@@ -227,5 +233,20 @@ impl Part {
             Self::Scene => 0,
             Self::Light(index) | Self::Primitive(index) => index + 1,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_time_of_a_picture_has_that_picture_however_it_is_rounded() {
+        for fps in [7.0, 24.0, 24000.0 / 1001.0, 30.0, 100.0] {
+            for number in 0..5000_u64 {
+                assert_eq!(picture_at(number as f64 / fps, fps), number, "{fps}");
+            }
+        }
+        assert_eq!((picture_at(0.999, 1.0), picture_at(0.29, 100.0), picture_at(1e6, 1e9)), (0, 29, 1e15 as u64));
     }
 }

@@ -165,7 +165,7 @@ pub fn name_widget(response: &Response, name: impl FnOnce() -> String) {
 }
 
 /// Six significant digits without trailing zeros; what rounding leaves of a zero is shown as 0.
-fn decimal(value: f64) -> String {
+pub fn decimal(value: f64) -> String {
     const NOISE: f64 = 1e-9;
     if value.abs() < NOISE {
         return "0".to_owned();

@@ -18,6 +18,7 @@ mod selected;
 mod shape;
 mod shortcuts;
 mod status;
+mod timeline;
 mod timing;
 
 use std::ops::RangeInclusive;
@@ -108,6 +109,10 @@ impl Panel {
                 self.show_groups(ui, state, readings, &mut actions);
             });
         });
+        if !state.document.scene().animation.is_empty() {
+            let bar = egui::Panel::bottom("timeline");
+            bar.show(ui, |ui| timeline::show(ui, words, &state.document, &mut actions));
+        }
         let picture = ui.available_rect_before_wrap();
         divider::show(ui, picture, words, state, &mut actions);
         faults::show(ui, picture, words, readings);

@@ -14,6 +14,7 @@ pub const UNDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key
 pub const REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
 pub const DUPLICATE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::D);
 pub const DELETE: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::Delete);
+pub const PLAY: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::Space);
 pub const HELP: KeyboardShortcut = KeyboardShortcut::new(Modifiers::NONE, Key::F1);
 const OTHER_REDO: KeyboardShortcut = KeyboardShortcut::new(Modifiers::COMMAND, Key::Y);
 
@@ -41,6 +42,7 @@ pub fn consume(ctx: &Context, state: &State, was_typing: bool, actions: &mut Vec
     actions.extend(pressed);
     if !was_typing && !egui::Popup::is_any_open(ctx) {
         actions.extend(on_escape(ctx, state));
+        actions.extend(on_space(ctx, state));
     }
 }
 
@@ -59,6 +61,14 @@ fn answer(event: &Event, is_typing: bool, is_help_shown: bool) -> Option<Action>
     let not_typing = not_typing.into_iter().filter(|_| !is_typing);
     let is_it = |shortcut: KeyboardShortcut| key == shortcut.logical_key && modifiers.matches_exact(shortcut.modifiers);
     always.into_iter().chain(not_typing).find(|(shortcut, _)| is_it(*shortcut)).map(|(_, action)| action)
+}
+
+/// What the space bar asks for: nothing where a widget has the focus, which it presses, and where nothing moves.
+fn on_space(ctx: &Context, state: &State) -> Option<Action> {
+    let document = &state.document;
+    let is_free = ctx.memory(|memory| memory.focused().is_none()) && !document.scene().animation.is_empty();
+    let is_pressed = is_free && ctx.input_mut(|input| input.consume_shortcut(&PLAY));
+    is_pressed.then(|| Action::SetTimeline(document.timeline().toggled()))
 }
 
 fn on_escape(ctx: &Context, state: &State) -> Option<Action> {

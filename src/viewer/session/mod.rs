@@ -59,6 +59,8 @@ pub(super) struct Session {
     screenshots: Vec<Screenshot>,
     observer: Option<Observer>,
     last_frame: Instant,
+    /// When time last went on, while it is played.
+    played_at: Option<Instant>,
     /// Whether the keys were flying in the last frame.
     is_flying: bool,
     recovery: Recovery,
@@ -134,6 +136,7 @@ impl Session {
             screenshots: Vec::new(),
             observer: options.is_observed.then(Observer::default),
             last_frame: Instant::now(),
+            played_at: None,
             is_flying: false,
             recovery,
             losses: Losses::default(),
@@ -187,8 +190,8 @@ impl Session {
             }
             WindowEvent::CursorMoved { position, .. } => {
                 let is_inverted = self.state.preferences.is_mouse_inverted;
-                let camera = self.state.document.camera_mut();
-                self.input.move_to(DVec2::new(position.x, position.y), camera, is_inverted);
+                let document = &mut self.state.document;
+                self.input.move_to(DVec2::new(position.x, position.y), || document.camera_mut(), is_inverted);
                 self.input.is_busy()
             }
             WindowEvent::MouseInput { state: ElementState::Pressed, button, .. } if is_over_picture => {
@@ -253,11 +256,11 @@ impl Session {
 
     /// What the mouse goes around: the selected primitive, or what is seen in the picture's centre, or else the origin.
     fn pivot(&self) -> DVec3 {
-        let document = &self.state.document;
+        let scene = self.state.document.shown_scene();
         let center = self.picture.center().to_vec2() * self.context.pixels_per_point();
-        let at = |index: usize| document.scene().primitives[index].solid.position();
+        let at = |index: usize| scene.primitives[index].solid.position();
         let seen = || self.pick(DVec2::new(center.x.into(), center.y.into()));
-        document.selection().or_else(seen).map_or(DVec3::ZERO, at)
+        self.state.document.selection().or_else(seen).map_or(DVec3::ZERO, at)
     }
 
     /// Which primitive is seen at a position of the window, pixels.
@@ -265,7 +268,7 @@ impl Session {
         let (corner, [width, height]) = self.picture_pixels();
         let (x, y) = (at.x - f64::from(corner[0]), at.y - f64::from(corner[1]));
         let is_inside = x >= 0.0 && y >= 0.0 && x < width.into() && y < height.into();
-        is_inside.then(|| pick::pick(self.state.document.scene(), width, height, x as u32, y as u32)).flatten()
+        is_inside.then(|| pick::pick(&self.state.document.shown_scene(), width, height, x as u32, y as u32)).flatten()
     }
 
     /// The picture's corner and size on the window, pixels.

@@ -97,8 +97,11 @@ impl Session {
         }
         let stage_before = self.stage();
         self.fly();
+        self.play();
         let (mut widgets, observation, repaint_delay) = self.run_widgets();
-        self.widgets_due = Instant::now().checked_add(repaint_delay);
+        let next_picture = self.state.document.timeline().until_next_picture();
+        let delay = next_picture.map_or(repaint_delay, |next_picture| next_picture.min(repaint_delay));
+        self.widgets_due = Instant::now().checked_add(delay);
         #[cfg(any(debug_assertions, test))]
         self.take_kernels();
         self.ask_for_picture()?;
@@ -145,6 +148,20 @@ impl Session {
             camera_motion::fly(self.state.document.camera_mut(), flight, step.as_secs_f64(), speed);
         }
         self.is_flying = flight.is_some();
+    }
+
+    /// Lets time go on while it is played, from one whole picture to the next: those that would come too late are left
+    /// out. A screenshot is of the time at which it was asked for.
+    fn play(&mut self) {
+        let is_playing = self.state.document.timeline().is_playing;
+        let [_, _, is_whole, _] = self.stage();
+        if is_playing && (!is_whole || !self.screenshots.is_empty()) && self.refusal().is_none() {
+            return;
+        }
+        let last = std::mem::replace(&mut self.played_at, is_playing.then(Instant::now));
+        if let Some(last) = last {
+            self.state.play(last.elapsed());
+        }
     }
 
     /// Draws the widgets and does what they ask; returns with them when they want to be drawn again.
@@ -209,14 +226,14 @@ impl Session {
             shader_error: self.shader_error.as_deref(),
         };
         let shown = self.panel.show(ui, &self.state, &readings);
-        if let Some(primitive) = self.state.document.selected() {
-            let camera = &self.state.document.scene().camera;
+        if let Some(index) = self.state.document.selection() {
+            let scene = self.state.document.shown_scene();
             let (corner, size) = self.picture_pixels();
             let scale = ui.ctx().pixels_per_point();
             // Where the picture's pixels are, which the free place may miss by half of one.
             let corner = egui::pos2(corner[0] as f32, corner[1] as f32) / scale;
             let place = egui::Rect::from_min_size(corner, egui::vec2(size[0] as f32, size[1] as f32) / scale);
-            highlight::draw(ui.painter(), place, size, camera, &primitive.solid);
+            highlight::draw(ui.painter(), place, size, &scene.camera, &scene.primitives[index].solid);
         }
         shown
     }

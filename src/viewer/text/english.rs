@@ -1,6 +1,6 @@
 //! The window in English.
 
-use super::{DialogWords, GroupWords, HelpWords, KindWords, MenuWords, Words};
+use super::{DialogWords, GroupWords, HelpWords, KindWords, MenuWords, TimelineWords, Words};
 
 pub(super) static WORDS: Words = Words {
     menu: MenuWords {
@@ -154,6 +154,19 @@ pub(super) static WORDS: Words = Words {
         replace: "Replace",
         keep: "Do not replace",
     },
+    timeline: TimelineWords {
+        title: "Animation",
+        play: "Play",
+        pause: "Pause",
+        stop: "Stop",
+        stop_hint: "Show the scene as its file has it, without a time",
+        time: "time",
+        of: "of",
+        seconds: "s",
+        rate: "pictures/s",
+        follows_camera: "animated camera",
+        follows_camera_hint: "The camera moves as the animation says, until you move it",
+    },
     help: HelpWords {
         title: "Keys and mouse",
         rows: [
@@ -170,6 +183,7 @@ pub(super) static WORDS: Words = Words {
             ("Ctrl+Shift+S", "save as"),
             ("Ctrl+D", "duplicate the primitive"),
             ("Delete", "delete the primitive"),
+            ("Space", "play the animation, pause it"),
             ("F12", "screenshot"),
             ("F1", "this help"),
             ("Esc", "close a dialog or the help, deselect"),

@@ -1,6 +1,6 @@
 //! The window in Russian; the course's labels and messages to the letter.
 
-use super::{DialogWords, GroupWords, HelpWords, KindWords, MenuWords, Words};
+use super::{DialogWords, GroupWords, HelpWords, KindWords, MenuWords, TimelineWords, Words};
 
 pub(super) static WORDS: Words = Words {
     menu: MenuWords {
@@ -158,6 +158,19 @@ pub(super) static WORDS: Words = Words {
         replace: "Заменить",
         keep: "Не заменять",
     },
+    timeline: TimelineWords {
+        title: "Анимация",
+        play: "Пуск",
+        pause: "Пауза",
+        stop: "Стоп",
+        stop_hint: "Показать сцену такой, какова она в файле, без времени",
+        time: "время",
+        of: "из",
+        seconds: "с",
+        rate: "кадров/с",
+        follows_camera: "камера анимации",
+        follows_camera_hint: "Камера движется по анимации, пока вы не сдвинете её",
+    },
     help: HelpWords {
         title: "Клавиши и мышь",
         rows: [
@@ -174,6 +187,7 @@ pub(super) static WORDS: Words = Words {
             ("Ctrl+Shift+S", "сохранить как"),
             ("Ctrl+D", "дублировать примитив"),
             ("Delete", "удалить примитив"),
+            ("Пробел", "пустить анимацию, остановить её"),
             ("F12", "снимок экрана"),
             ("F1", "эта справка"),
             ("Esc", "закрыть диалог или справку, снять выбор"),

@@ -15,6 +15,7 @@ pub struct Observation {
     pub primitives: usize,
     pub lights: usize,
     pub selection: Option<usize>,
+    pub seconds: Option<f64>,
     camera_position: [f64; 3],
     camera_direction: [f64; 3],
     pub has_unsaved_changes: bool,
