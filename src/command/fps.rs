@@ -46,9 +46,10 @@ pub struct FpsArgs {
     /// one of each, called fps; may be repeated
     #[arg(short, long, value_name = "DIR|FILE")]
     pub output: Vec<PathBuf>,
-    /// Go on with a table that was interrupted, on the same device and as it was begun
+    /// Go on with a table that was interrupted, on the same device and as it was begun; repeated, the cells of the other
+    /// tables, of machines of the same kind, are taken into the first
     #[arg(long, value_name = "JSON")]
-    pub resume: Option<PathBuf>,
+    pub resume: Vec<PathBuf>,
     /// Show every frame in a window of the picture's size, without waiting for the display, and count the frames shown,
     /// as the course work did
     #[arg(long)]
@@ -72,7 +73,7 @@ fn parse_count(text: &str) -> Result<usize, String> {
 }
 
 pub fn run(args: &FpsArgs) -> Result<()> {
-    let begun = args.resume.as_deref().map(FpsTable::load).transpose()?;
+    let begun = merged(&args.resume)?;
     let plan = plan(args, begun.as_ref().map(|table| &table.plan));
     let validation = args.measuring.validation.validation();
     let mut display = args.in_window.then(|| Display::open(WITHOUT_WINDOW)).transpose()?;
@@ -80,7 +81,7 @@ pub fn run(args: &FpsArgs) -> Result<()> {
         Some(display) => in_window(display, args, &plan, validation)?,
         None => off_screen(args, validation)?,
     };
-    let mut table = match (&args.resume, begun) {
+    let mut table = match (args.resume.first(), begun) {
         (Some(path), Some(begun)) => {
             begun.check_goes_on(path, &machine, &plan)?;
             begun
@@ -88,7 +89,7 @@ pub fn run(args: &FpsArgs) -> Result<()> {
         _ => FpsTable::new(machine, plan),
     };
     let mut outputs = report_files(&args.output, "fps")?;
-    if let Some(path) = args.resume.as_ref().filter(|path| !outputs.contains(path)) {
+    if let Some(path) = args.resume.first().filter(|path| !outputs.contains(path)) {
         check_output_path(path)?;
         outputs.push(path.clone());
     }
@@ -102,6 +103,16 @@ pub fn run(args: &FpsArgs) -> Result<()> {
         return Err(stopped(&table, args, &outputs).into());
     }
     refuse_messages(&messages)
+}
+
+/// The first table, with the cells of all others.
+fn merged(paths: &[PathBuf]) -> Result<Option<FpsTable>> {
+    let Some((first, others)) = paths.split_first() else { return Ok(None) };
+    let mut table = FpsTable::load(first)?;
+    for path in others {
+        table.merge(path, FpsTable::load(path)?)?;
+    }
+    Ok(Some(table))
 }
 
 /// Where the frames are drawn, by what, and what validation says of it.

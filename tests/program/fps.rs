@@ -187,6 +187,20 @@ fn a_table_is_gone_on_with_only_as_it_was_begun() {
     }
     fs::write(place.path("noise.json"), "noise").unwrap();
     place.assert_fps_refused(&["--resume", "noise.json"], 2, "noise.json");
+    // Another machine's part of the table.
+    let part = ["--size", "16x7", "--counts", "20", "--algorithm", "course", "--seconds", "0.01", "-o", "part.json"];
+    place.fps_well(&part);
+    let twice = ["--resume", "fps.json", "--resume", "again.json"];
+    let mut again = whole.clone();
+    again["cells"][0]["wall_samples_ns"][0] = 1.into();
+    fs::write(place.path("again.json"), again.to_string()).unwrap();
+    place.assert_fps_refused(&twice, 2, "again.json");
+    fs::copy(place.path("fps.json"), place.path("all.json")).unwrap();
+    place.fps_well(&["--resume", "all.json", "--resume", "part.json"]);
+    let all = place.read_json("all.json");
+    let cells =
+        [&whole, &place.read_json("part.json")].map(|table| table["cells"].as_array().unwrap().clone()).concat();
+    assert_eq!((&all["cells"], &all["plan"]["counts"]), (&cells.into(), &serde_json::json!([10, 20])));
     // Whole already: nothing is measured anew, and other forms can be had of it.
     place.fps_well(&["--resume", "fps.json", "-o", "fps.md"]);
     assert_eq!(place.read_json("fps.json"), whole);

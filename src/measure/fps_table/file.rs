@@ -10,7 +10,7 @@ use thiserror::Error;
 use super::chart::chart;
 use super::figures::{Figures, figures};
 use super::tables::blocks;
-use super::{Agreement, Algorithm, Cell, Clock, FpsTable, Machine, Plan, published};
+use super::{Agreement, Algorithm, Clock, FpsTable, Machine, Plan, published};
 use crate::measure::output::chart::Chart;
 use crate::measure::output::{Document, OutputError, ReportFormat, Table};
 
@@ -142,12 +142,7 @@ impl FpsTable {
                 () if samples.into_iter().flatten().any(Vec::is_empty) => "is empty",
                 () => continue,
             };
-            let Cell { kind, count, algorithm, .. } = cell;
-            return Err(format!(
-                "its cell of {count} of the kind {}, {} kernel, {fault}",
-                kind.name(),
-                algorithm.name()
-            ));
+            return Err(format!("its cell of {}, {fault}", cell.name()));
         }
         Ok(())
     }
@@ -159,6 +154,31 @@ impl FpsTable {
             return Ok(());
         }
         Err(FpsTableError::Differs { path: path.to_owned(), differences: differences.join(", ") })
+    }
+
+    /// Takes in the cells of a table, read from `path`, that a machine of the same kind measured by the same plan but for
+    /// its numbers of solids. Cells that are the same in both are of a table that was taken in before.
+    ///
+    /// # Errors
+    /// It was measured otherwise, or both measured a cell. Nothing was taken in.
+    pub fn merge(&mut self, path: &Path, other: Self) -> Result<(), FpsTableError> {
+        other.check_goes_on(path, &self.machine, &Plan { counts: other.plan.counts.clone(), ..self.plan.clone() })?;
+        let mut new = Vec::new();
+        for cell in other.cells {
+            match self.cell(cell.kind, cell.count, cell.algorithm) {
+                None => new.push(cell),
+                Some(ours) if *ours == cell => {}
+                Some(_) => {
+                    let differences = format!("another table has measured its cell of {} as well", cell.name());
+                    return Err(FpsTableError::Differs { path: path.to_owned(), differences });
+                }
+            }
+        }
+        self.cells.extend(new);
+        self.plan.counts.extend(other.plan.counts);
+        self.plan.counts.sort_unstable();
+        self.plan.counts.dedup();
+        Ok(())
     }
 }
 
@@ -242,6 +262,30 @@ mod tests {
             "table \"fps.json\" cannot be gone on with: its driver is \"driver 1\", and here it is \"driver 2\", its \
              width is 160, and here it is 161"
         );
+    }
+
+    #[test]
+    fn tables_of_one_plan_are_merged_and_a_cell_that_two_have_measured_is_refused() {
+        let path = Path::new("b.json");
+        let whole = example(&[10, 20], &BOTH);
+        let mut table = example(&[20], &BOTH);
+        for _ in 0..2 {
+            table.merge(path, example(&[10], &BOTH)).unwrap();
+            assert_eq!((&table.plan, table.cells.len(), table.missing()), (&whole.plan, whole.cells.len(), vec![]));
+        }
+        // Of the same numbers, each in part.
+        let mut half = whole.clone();
+        let rest = half.cells.split_off(3);
+        half.merge(path, FpsTable { cells: rest, ..whole.clone() }).unwrap();
+        assert_eq!(half, whole);
+        let mut again = example(&[20, 30], &BOTH);
+        again.cells[1].wall_samples_ns[0] += 1;
+        let error = half.merge(path, again).unwrap_err().to_string();
+        assert!(error.contains("20 of the kind sphere, whitted kernel as well"), "{error}");
+        assert_eq!(half, whole, "nothing was taken in");
+        let other =
+            FpsTable { machine: Machine { device: "2".into(), ..whole.machine.clone() }, ..example(&[30], &BOTH) };
+        assert!(half.merge(path, other).unwrap_err().to_string().contains("its device is \"2\""));
     }
 
     #[test]

@@ -128,6 +128,11 @@ impl Cell {
             Clock::Wall => Summary::of(&self.wall_samples_ns),
         }
     }
+
+    /// Where in the table it is, for messages.
+    fn name(&self) -> String {
+        format!("{} of the kind {}, {} kernel", self.count, self.kind.name(), self.algorithm.name())
+    }
 }
 
 /// Frames a second of so long a frame.
@@ -194,12 +199,10 @@ impl FpsTable {
         let clock = self.clock();
         let line = |cell: &Cell| {
             let summary = cell.summary(clock)?;
-            let Cell { kind, count, algorithm, .. } = cell;
             (!summary.outliers.is_empty()).then(|| {
                 format!(
-                    "{count} of the kind {}, {} kernel: {} of {} frames (median {:.3} ms, {:.3} to {:.3} ms)",
-                    kind.name(),
-                    algorithm.name(),
+                    "{}: {} of {} frames (median {:.3} ms, {:.3} to {:.3} ms)",
+                    cell.name(),
                     summary.outliers.len(),
                     summary.count,
                     summary.median_ns as f64 / 1e6,
